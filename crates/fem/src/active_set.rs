@@ -18,6 +18,9 @@
 //! the number of wrong signs has not fallen for some steps, one member at a time is exchanged (the last wrong one, by
 //! number), which cannot cycle, until the number has fallen.
 //!
+//! A solution on gaps that have hardly changed tries the active set of the last one first ([`Condensed::solve_again`]): it asks for the gaps of the members and
+//! of a few multipliers beside them alone, and is the whole solution unless the surfaces come to touch elsewhere.
+//!
 //! Source: M. Hintermüller, K. Ito and K. Kunisch, *SIAM J. Optim.* 13 (2003) 865–888; J. Júdice and F. Pires, *Comput.
 //! Oper. Res.* 21 (1994) 587–596 (block principal pivoting and its backup).
 
@@ -27,6 +30,8 @@ use pulp::Arch;
 
 use crate::weighted_sum::weighted_sum;
 
+/// Multipliers to either side of an active one, by number, that a solution with the same active set watches.
+const WATCHED: usize = 4;
 /// Number of full exchanges without fewer wrong signs before single exchanges.
 const PATIENCE: usize = 8;
 /// Greatest number of exchanges.
@@ -168,6 +173,49 @@ struct FactoredSet {
     /// Other multipliers, and their rows of C for the members.
     others: Vec<usize>,
     others_compliance: Mat<f64>,
+    /// Multipliers beside the members, from their first use on.
+    watched: Option<Watched>,
+}
+
+/// Multipliers beside the members of an active set.
+#[derive(Debug, Clone)]
+struct Watched {
+    rows: Vec<usize>,
+    /// Rows of C for the members, one after another.
+    compliance: Vec<f64>,
+    /// Whether each multiplier is one of these or a member.
+    asked: Vec<bool>,
+}
+
+/// Forces of the members of an active set.
+struct MemberForces {
+    force: Vec<f64>,
+    rigid: nalgebra::DVector<f64>,
+    resistance: nalgebra::DMatrix<f64>,
+    /// Motion that the active set does not hold.
+    loose: Option<Vec<f64>>,
+}
+
+impl ReusableFactor {
+    /// Multipliers whose gaps [`Condensed::solve_again`] asks for with the active set `active`; `None` where the last solution had another.
+    pub fn asked(&mut self, compliance: MatRef<'_, f64>, active: &[bool]) -> Option<&[bool]> {
+        let set = self.factored.as_mut().filter(|set| set.active == active)?;
+        let FactoredSet { members, watched, .. } = set;
+        Some(&watched.get_or_insert_with(|| Watched::new(compliance, active, members)).asked)
+    }
+}
+
+impl Watched {
+    fn new(compliance: MatRef<'_, f64>, active: &[bool], members: &[usize]) -> Self {
+        let mut asked = active.to_vec();
+        for &member in members {
+            asked[member.saturating_sub(WATCHED)..(member + WATCHED + 1).min(active.len())].fill(true);
+        }
+        let rows: Vec<usize> = (0..active.len()).filter(|&i| asked[i] && !active[i]).collect();
+        let compliance =
+            rows.iter().flat_map(|&i| members.iter().map(move |&member| compliance[(i, member)])).collect();
+        Self { rows, compliance, asked }
+    }
 }
 
 /// Solution of one active set.
@@ -316,6 +364,44 @@ impl Condensed {
             }
         };
         let set = &*factored.insert(set);
+        let MemberForces { force: of_members, rigid: alpha, resistance: s, loose } =
+            self.member_forces(set, resistance);
+        let mut force = vec![0.0; active.len()];
+        set.members.iter().zip(&of_members).for_each(|(&member, own)| force[member] = *own);
+        let gap_mm = self.gaps_mm(set, &of_members, alpha.as_slice());
+        // S is symmetric, so that columns are rows.
+        Ok(Trial { force, gap_mm, rigid: alpha.iter().copied().collect(), resistance: s.data.into(), loose })
+    }
+
+    /// Solves again with the active set of `found`, if the last solution with `kept` had that one too, and no sign is wrong among the members and the multipliers
+    /// beside them, whose gaps alone are asked for ([`ReusableFactor::asked`]). Then `found` has the new forces and motions, and its old gaps; otherwise it stays.
+    pub fn solve_again(&self, found: &mut ContactEquilibrium, kept: &ReusableFactor) -> bool {
+        let Some(set) = kept.factored.as_ref().filter(|set| set.active == found.active) else { return false };
+        let Some(Watched { rows, compliance, .. }) = &set.watched else { return false };
+        let MemberForces { force, rigid, loose, .. } = self.member_forces(set, &kept.resistance);
+        let greatest_force = force.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
+        // NaN is no force.
+        let holds = force.iter().all(|f| *f >= -ROUND_OFF * greatest_force);
+        if !holds || loose.is_some() {
+            return false;
+        }
+        let gap_mm = rows.iter().zip(compliance.chunks_exact(force.len())).map(|(&row, compliance)| {
+            let by_motion = rigid.iter().enumerate().map(|(a, amplitude)| self.rigid[(row, a)] * amplitude);
+            self.gap_mm[row] + weighted_sum(compliance, &force) + by_motion.sum::<f64>()
+        });
+        let gap_mm: Vec<f64> = gap_mm.collect();
+        let greatest_gap = gap_mm.iter().fold(0.0_f64, |most, g| most.max(g.abs()));
+        if !gap_mm.iter().all(|gap| *gap >= -ROUND_OFF * greatest_gap) {
+            return false;
+        }
+        set.members.iter().zip(&force).for_each(|(&member, own)| found.force[member] = *own);
+        found.rigid.copy_from_slice(rigid.as_slice());
+        found.log = ActiveSetLog { steps: vec![(force.len(), 0)], ..ActiveSetLog::default() };
+        true
+    }
+
+    /// Forces if the members of a set carry the load.
+    fn member_forces(&self, set: &FactoredSet, resistance: &[f64]) -> MemberForces {
         let FactoredSet { members, factor, by_motion, .. } = set;
         let m = self.rigid_load.len();
         let mut by_gap: Vec<f64> = members.iter().map(|&member| -self.gap_mm[member]).collect();
@@ -323,15 +409,11 @@ impl Condensed {
         let s = nalgebra::DMatrix::from_fn(m, m, |a, b| self.along_motion(a, members, column(by_motion.as_ref(), b)));
         let load = nalgebra::DVector::from_fn(m, |a, _| self.along_motion(a, members, &by_gap) - self.rigid_load[a]);
         let (alpha, loose) = held_motion(&s, &load, resistance);
-        let mut of_members = by_gap;
+        let mut force = by_gap;
         for (a, alpha) in alpha.iter().enumerate() {
-            add_scaled(&mut of_members, column(by_motion.as_ref(), a), -alpha);
+            add_scaled(&mut force, column(by_motion.as_ref(), a), -alpha);
         }
-        let mut force = vec![0.0; active.len()];
-        members.iter().zip(&of_members).for_each(|(&member, own)| force[member] = *own);
-        let gap_mm = self.gaps_mm(set, &of_members, alpha.as_slice());
-        // S is symmetric, so that columns are rows.
-        Ok(Trial { force, gap_mm, rigid: alpha.iter().copied().collect(), resistance: s.data.into(), loose })
+        MemberForces { force, rigid: alpha, resistance: s, loose }
     }
 
     /// Gaps under the forces of the members of a set and amplitudes of the rigid motions.
@@ -372,7 +454,15 @@ impl Condensed {
         })?;
         let mut by_motion = Mat::from_fn(k, self.rigid_load.len(), |i, a| self.rigid[(members[i], a)]);
         factor.solve_in_place(by_motion.as_mut());
-        Ok(FactoredSet { active: active.to_vec(), members, factor, by_motion, others, others_compliance })
+        Ok(FactoredSet {
+            active: active.to_vec(),
+            members,
+            factor,
+            by_motion,
+            others,
+            others_compliance,
+            watched: None,
+        })
     }
 
     /// Active multipliers in tension and others that penetrate.

@@ -189,11 +189,51 @@ impl MeshCycle for CondensedCycle<'_> {
         depth_mm: &mut PerGear<Vec<f64>>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
+        let keep = self.some_keep_wear;
+        let work = self.evaluate_by(|group, step| group.evaluate_stage(step, keep), lost, wear, depth_mm, stopped)?;
+        Ok(if keep { work.of_a_part() } else { work })
+    }
+
+    fn evaluate_end(
+        &mut self,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
         if !self.some_keep_wear {
             return self.evaluate(lost, wear, depth_mm, stopped);
         }
-        let work = self.evaluate_by(|group, step| group.evaluate_stage(step), lost, wear, depth_mm, stopped)?;
+        let work = self.evaluate_by(|group, step| group.evaluate_end(step), lost, wear, depth_mm, stopped)?;
         Ok(work.of_a_part())
+    }
+
+    fn choose_part(&mut self) -> bool {
+        self.some_keep_wear
+    }
+
+    fn evaluate_part(
+        &mut self,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        self.evaluate_stage(lost, wear, depth_mm, stopped)
+    }
+
+    fn complete_stage(
+        &mut self,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Work>, EquilibriumError> {
+        if !self.some_keep_wear {
+            return Ok(None);
+        }
+        let work = self.evaluate_by(|group, step| group.complete_stage(step), lost, wear, depth_mm, stopped)?;
+        Ok(Some(work.of_a_part()))
     }
 
     fn reset(&mut self) {
@@ -272,13 +312,22 @@ struct WearEvaluation<'a> {
 impl CondensedGroup {
     fn evaluate(&mut self, step: &WearEvaluation<'_>) {
         self.collected.clear();
-        self.evaluate_those(|_| true, step);
+        self.evaluate_those(|_| true, CondensedPosition::solve, step);
+    }
+
+    /// As [`Self::evaluate`], but for positions that keep their wear where they are to `keep` it, and contacts are looked for where they were alone.
+    fn evaluate_stage(&mut self, step: &WearEvaluation<'_>, keep: bool) {
+        match keep {
+            true => self.collected.begin_from(&self.kept_mm),
+            false => self.collected.clear(),
+        }
+        self.evaluate_those(|loaded| !(keep && loaded.keeps_wear), CondensedPosition::solve_again, step);
     }
 
     /// As [`Self::evaluate`], but for positions that keep their wear.
-    fn evaluate_stage(&mut self, step: &WearEvaluation<'_>) {
+    fn evaluate_end(&mut self, step: &WearEvaluation<'_>) {
         self.collected.begin_from(&self.kept_mm);
-        self.evaluate_those(|loaded| !loaded.keeps_wear, step);
+        self.evaluate_those(|loaded| !loaded.keeps_wear, CondensedPosition::solve, step);
     }
 
     /// Keeps the wear of the positions whose pressure is nowhere above `mild_mpa`.
@@ -292,10 +341,31 @@ impl CondensedGroup {
         }
     }
 
+    /// Evaluates the positions that keep their wear, after [`Self::evaluate_end`], and collects the wear of all.
+    fn complete_stage(&mut self, step: &WearEvaluation<'_>) {
+        self.collected.clear();
+        for loaded in &mut self.loaded_positions {
+            let solved = match loaded.keeps_wear {
+                true if (step.stopped)() => Err(EquilibriumError::Interrupted),
+                true => loaded.solve(step),
+                false => Ok(Work::default()),
+            };
+            if !self.collected.take(solved) {
+                return;
+            }
+            loaded.wear(step, &mut self.rows, &mut self.collected.depth_mm);
+        }
+    }
+
     /// Collects the wear of some of the positions.
-    fn evaluate_those(&mut self, are_asked: impl Fn(&CondensedPosition) -> bool, step: &WearEvaluation<'_>) {
+    fn evaluate_those(
+        &mut self,
+        are_asked: impl Fn(&CondensedPosition) -> bool,
+        solve: impl Fn(&mut CondensedPosition, &WearEvaluation<'_>) -> Result<Work, EquilibriumError>,
+        step: &WearEvaluation<'_>,
+    ) {
         for loaded in self.loaded_positions.iter_mut().filter(|loaded| are_asked(loaded)) {
-            let solved = if (step.stopped)() { Err(EquilibriumError::Interrupted) } else { loaded.solve(step) };
+            let solved = if (step.stopped)() { Err(EquilibriumError::Interrupted) } else { solve(loaded, step) };
             if !self.collected.take(solved) {
                 return;
             }
@@ -372,6 +442,21 @@ impl CondensedPosition {
             work += self.follow_tilt(step)?;
         }
         Ok(Work { equilibria: 1, ..work })
+    }
+
+    /// Solves within a wear step: where the contact is still where it was, without looking for others.
+    fn solve_again(&mut self, step: &WearEvaluation<'_>) -> Result<Work, EquilibriumError> {
+        let Self { prepared, transfers, found, .. } = self;
+        let opening = |prepared: &PreparedPosition, asked: &[bool], gap_mm: &mut [f64]| {
+            for contact in transfers.iter() {
+                contact.open_gaps_of(|row| asked[row], step.worn.depth_mm, |row| prepared.tilt_rad(row), gap_mm);
+            }
+        };
+        if found.as_mut().is_some_and(|found| prepared.solve_again(found, opening)) {
+            let pair_evaluations = prepared.tooth_pairs() as u64;
+            return Ok(Work { equilibria: 1, newton_iterations: 1, pair_evaluations, ..Work::default() });
+        }
+        self.solve(step)
     }
 
     /// Follows the tilt of the worn flanks, and finds the contact again as long as that changes it.

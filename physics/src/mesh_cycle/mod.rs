@@ -254,8 +254,8 @@ pub trait MeshCycle {
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError>;
 
-    /// Chooses a part of the positions in which waves of wear decay as fast as in any: of those evaluated last, the part that wears deepest. Returns
-    /// whether there is one.
+    /// Chooses a part of the positions in which waves of wear decay as fast as in any: of those evaluated last, the part that wears deepest, or those that do not
+    /// keep their wear over the stages of a step. Returns whether there is one.
     fn choose_part(&mut self) -> bool {
         false
     }
@@ -285,6 +285,29 @@ pub trait MeshCycle {
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
         self.evaluate(lost, wear, depth_mm, stopped)
+    }
+
+    /// As [`Self::evaluate_stage`], at the end of the step: also contacts that come up elsewhere within the step are found.
+    fn evaluate_end(
+        &mut self,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        self.evaluate_stage(lost, wear, depth_mm, stopped)
+    }
+
+    /// After [`Self::evaluate_end`] on the same `lost`: evaluates the positions that keep their wear over the stages too, and fills `depth_mm` with the wear
+    /// of all. Returns the work; nothing where none does.
+    fn complete_stage(
+        &mut self,
+        _lost: LostMaterial<'_>,
+        _wear: &WearModel<'_>,
+        _depth_mm: &mut PerGear<Vec<f64>>,
+        _stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Work>, EquilibriumError> {
+        Ok(None)
     }
 
     /// Returns to the state before any evaluation: the next one depends only on what the flanks have lost, to the bit.
@@ -364,6 +387,36 @@ impl MeshCycle for LineOfActionCycle<'_> {
         self.groups.par_iter_mut().for_each(|group| group.evaluate_stage(lost, load, wear, stopped));
         let work = Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)?;
         Ok(work.of_a_part())
+    }
+
+    fn choose_part(&mut self) -> bool {
+        self.some_keep_wear
+    }
+
+    fn evaluate_part(
+        &mut self,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        self.evaluate_stage(lost, wear, depth_mm, stopped)
+    }
+
+    fn complete_stage(
+        &mut self,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Work>, EquilibriumError> {
+        if !self.some_keep_wear {
+            return Ok(None);
+        }
+        let load = self.line_load_n_per_mm;
+        self.groups.par_iter_mut().for_each(|group| group.complete_stage(lost, load, wear, stopped));
+        let work = Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)?;
+        Ok(Some(work.of_a_part()))
     }
 
     fn reset(&mut self) {
@@ -473,6 +526,29 @@ impl LineOfActionGroup<'_> {
     ) {
         self.collected.begin_from(&self.kept_mm);
         self.evaluate_those(|loaded| !loaded.keeps_wear, removed_mm, line_load, wear, stopped);
+    }
+
+    /// Evaluates the positions that keep their wear, after [`Self::evaluate_stage`], and collects the wear of all.
+    fn complete_stage(
+        &mut self,
+        removed_mm: PerGear<&[f64]>,
+        line_load: f64,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) {
+        self.collected.clear();
+        for loaded in &mut self.loaded_positions {
+            let solved = match loaded.keeps_wear {
+                true if stopped() => Err(EquilibriumError::Interrupted),
+                true => loaded.solve(removed_mm, line_load),
+                false => Ok(Work::default()),
+            };
+            if !self.collected.take(solved) {
+                return;
+            }
+            let contact = (&loaded.pairs[0], &loaded.place);
+            self.points.wear(wear, contact, removed_mm, PerGear::default(), &mut self.collected.depth_mm);
+        }
     }
 
     /// Collects the wear of some of the positions.

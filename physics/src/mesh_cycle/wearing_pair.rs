@@ -83,6 +83,25 @@ pub(crate) trait WearingPair {
         self.evaluate(wear, stopped)
     }
 
+    /// As [`Self::evaluate_stage`], at the end of the step ([`MeshCycle::evaluate_end`]).
+    fn evaluate_end(
+        &mut self,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        self.evaluate_stage(wear, stopped)
+    }
+
+    /// After [`Self::evaluate_end`] on the same flanks: evaluates the positions that keep their wear over the stages too. Returns the work; nothing where none
+    /// does.
+    fn complete_stage(
+        &mut self,
+        _wear: &WearModel<'_>,
+        _stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Work>, EquilibriumError> {
+        Ok(None)
+    }
+
     /// Makes the positions of a [`CondensedCycle`] anew ([`CondensedCycle::linearise_anew`]), after an evaluation on the same flanks.
     fn linearise_anew(
         &mut self,
@@ -186,6 +205,14 @@ impl WearingPair for OnFlankPoints<'_> {
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
         self.cycle.evaluate_stage(lost(&self.removed_mm), wear, &mut self.depth_mm, stopped)
+    }
+
+    fn complete_stage(
+        &mut self,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Work>, EquilibriumError> {
+        self.cycle.complete_stage(lost(&self.removed_mm), wear, &mut self.depth_mm, stopped)
     }
 
     fn wear_for(&mut self, meshes: PerGear<f64>) {
@@ -303,6 +330,34 @@ impl WearingPair for OnFlankNodes<'_> {
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
         self.cycle.evaluate_stage(lost(&self.lost_mm), wear, &mut self.depth_mm, stopped)
+    }
+
+    fn evaluate_end(
+        &mut self,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        self.cycle.evaluate_end(lost(&self.lost_mm), wear, &mut self.depth_mm, stopped)
+    }
+
+    fn choose_part(&mut self) -> bool {
+        self.cycle.choose_part()
+    }
+
+    fn evaluate_part(
+        &mut self,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        self.cycle.evaluate_part(lost(&self.lost_mm), wear, &mut self.depth_mm, stopped)
+    }
+
+    fn complete_stage(
+        &mut self,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Work>, EquilibriumError> {
+        self.cycle.complete_stage(lost(&self.lost_mm), wear, &mut self.depth_mm, stopped)
     }
 
     fn wear_for(&mut self, meshes: PerGear<f64>) {

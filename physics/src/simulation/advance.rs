@@ -287,6 +287,20 @@ impl Rate for OnRows<'_, '_> {
         Ok(())
     }
 
+    fn evaluate_end(&mut self, state: &[f64], slope: &mut [f64]) -> Result<(), EquilibriumError> {
+        self.set(state);
+        self.rate.work += self.rate.pair.evaluate_end(self.rate.wear, self.rate.stopped)?;
+        self.rate.read_slope(self.depth_mm, slope);
+        Ok(())
+    }
+
+    fn complete_stage(&mut self, _state: &[f64], slope: &mut [f64]) -> Result<bool, EquilibriumError> {
+        let Some(work) = self.rate.pair.complete_stage(self.rate.wear, self.rate.stopped)? else { return Ok(false) };
+        self.rate.work += work;
+        self.rate.read_slope(self.depth_mm, slope);
+        Ok(true)
+    }
+
     fn begin_step(&mut self, state: &[f64], slope: &mut [f64]) -> Result<u64, EquilibriumError> {
         if self.clean_start {
             self.rate.pair.reset();

@@ -292,11 +292,15 @@ fn ver_kept_wear_is_that_of_the_whole_evaluation() {
         cycle.begin_stages(lost, &wear);
         let part = cycle.evaluate_stage(lost, &wear, &mut stage, &|| false).unwrap();
         assert_eq!((all.equilibria, part.equilibria, part.partial_equilibria, part.mesh_cycles), (30, 10, 10, 0));
+        let mut completed = PerGear { pinion: zeros.clone(), wheel: zeros.clone() };
+        let rest = cycle.complete_stage(lost, &wear, &mut completed, &|| false).unwrap().unwrap();
+        assert_eq!((rest.equilibria, rest.mesh_cycles), (20, 0));
         for gear in Gear::BOTH {
             let greatest = whole[gear].iter().copied().fold(0.0, f64::max);
             let apart =
                 whole[gear].iter().zip(&stage[gear]).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
             assert!(greatest > 0.0 && apart < 1e-9 * greatest, "{gear:?}: {apart:e} of {greatest:e}");
+            assert_eq!(whole[gear], completed[gear], "the same contacts in the same order");
         }
     }
 }

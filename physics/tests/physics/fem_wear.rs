@@ -432,9 +432,38 @@ fn ver_kept_wear_is_that_of_the_whole_evaluation() {
     let part = cycle.evaluate_stage(lost, &wear, &mut stage, &|| false).expect("the cycle has an equilibrium");
     assert!(part.equilibria > 0 && 2 * part.equilibria < all.equilibria, "{part:?} of {all:?}");
     assert_eq!((part.partial_equilibria, part.mesh_cycles), (part.equilibria, 0));
+    assert_close_wear(&stage, &whole);
+
+    // On other flanks a stage has the new wear of the severe positions alone, and its completion that of all.
+    let mut other = unworn.clone();
+    let nodes = other.pinion.len() as f64;
+    other.pinion.iter_mut().enumerate().for_each(|(node, depth)| *depth = 1e-3 * node as f64 / nodes);
+    let lost = other.as_ref().map(Vec::as_slice);
+    let part = cycle.evaluate_stage(lost, &wear, &mut stage, &|| false).expect("the cycle has an equilibrium");
+    let mut completed = unworn.clone();
+    let rest = cycle.complete_stage(lost, &wear, &mut completed, &|| false).expect("the cycle has an equilibrium");
+    let rest = rest.expect("positions keep their wear");
+    assert_eq!((part.equilibria + rest.equilibria, rest.mesh_cycles), (all.equilibria, 0));
+    let mut anew = unworn.clone();
+    cycle.evaluate(lost, &wear, &mut anew, &|| false).expect("the cycle has an equilibrium");
+    assert_close_wear(&completed, &anew);
+    assert!(
+        Gear::BOTH.iter().any(|&gear| greatest_difference(&stage[gear], &anew[gear]) > 1e-4 * greatest(&anew[gear]))
+    );
+}
+
+fn greatest(row: &[f64]) -> f64 {
+    row.iter().copied().fold(0.0, f64::max)
+}
+
+fn greatest_difference(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
+}
+
+/// Fails where the wear of a flank is not that `expected` to the ninth digit.
+fn assert_close_wear(found: &PerGear<Vec<f64>>, expected: &PerGear<Vec<f64>>) {
     for gear in Gear::BOTH {
-        let greatest = whole[gear].iter().copied().fold(0.0, f64::max);
-        let apart = whole[gear].iter().zip(&stage[gear]).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
-        assert!(greatest > 0.0 && apart < 1e-9 * greatest, "{gear:?}: {apart:e} of {greatest:e}");
+        let (apart, most) = (greatest_difference(&found[gear], &expected[gear]), greatest(&expected[gear]));
+        assert!(most > 0.0 && apart < 1e-9 * most, "{gear:?}: {apart:e} of {most:e}");
     }
 }

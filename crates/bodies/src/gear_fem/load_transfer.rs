@@ -130,11 +130,25 @@ impl LoadTransfer {
     /// Opens the gaps of the position's rows by the wear `depth_mm` at the nodes. A coupling of flanks tilted by `tilt_rad` at a row
     /// ([`super::tilted`]) contains the opening by the slave's offset along that tilt already.
     pub fn open_gaps(&self, depth_mm: PerGear<&[f64]>, tilt_rad: impl Fn(usize) -> f64, gap_mm: &mut [f64]) {
+        self.open_gaps_of(|_| true, depth_mm, tilt_rad, gap_mm);
+    }
+
+    /// As [`Self::open_gaps`], of the rows of the position that are asked for.
+    pub fn open_gaps_of(
+        &self,
+        is_asked: impl Fn(usize) -> bool,
+        depth_mm: PerGear<&[f64]>,
+        tilt_rad: impl Fn(usize) -> f64,
+        gap_mm: &mut [f64],
+    ) {
         let gap_mm = &mut gap_mm[self.first_row..self.first_row + self.len()];
         Arch::new().dispatch(
             #[inline(always)]
             || {
                 for (i, gap) in gap_mm.iter_mut().enumerate() {
+                    if !is_asked(self.first_row + i) {
+                        continue;
+                    }
                     let [pinion_mm, wheel_mm] = Gear::BOTH.map(
                         #[inline(always)]
                         |gear| self.means[gear].opening_mm(i, depth_mm[gear]),

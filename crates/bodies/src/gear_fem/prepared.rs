@@ -293,6 +293,27 @@ impl PreparedPosition {
         self.facings.len()
     }
 
+    /// Solves again on flanks that have hardly changed since `found` ([`Condensed::solve_again`]), in the same window, beside which overlaps are not looked for.
+    /// `opening` adds the opening by wear to the gaps of the multipliers that are asked for. Returns whether `found` is the new solution.
+    pub fn solve_again(
+        &mut self,
+        found: &mut ContactEquilibrium,
+        opening: impl FnOnce(&PreparedPosition, &[bool], &mut [f64]),
+    ) -> bool {
+        let Some(mut kept) = self.kept.take() else { return false };
+        let mut gap_mm = std::mem::take(&mut self.condensed.gap_mm);
+        let asked = kept.asked(self.condensed.compliance.as_ref(), &found.active);
+        if let Some(asked) = asked {
+            gap_mm.copy_from_slice(&self.unworn_gap_mm);
+            opening(self, asked, &mut gap_mm);
+        }
+        let is_asked = asked.is_some();
+        self.condensed.gap_mm = gap_mm;
+        let solved = is_asked && self.condensed.solve_again(found, &kept);
+        self.kept = Some(kept);
+        solved
+    }
+
     /// Sets the gaps to those of the unworn flanks with `opening` added.
     fn open_gaps(&mut self, opening: &mut dyn FnMut(&PreparedPosition, &mut [f64])) {
         let mut gap_mm = std::mem::take(&mut self.condensed.gap_mm);

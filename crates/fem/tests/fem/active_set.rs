@@ -60,6 +60,49 @@ fn random(seed: u64, (n, columns): (usize, usize)) -> Condensed {
     }
 }
 
+/// A parabola on 41 multipliers, pressed down by one motion: those in the middle touch.
+fn parabola() -> Condensed {
+    let n = 41_i32;
+    let across = |i: usize| f64::from(i as i32 - n / 2);
+    Condensed {
+        compliance: Mat::from_fn(n as usize, n as usize, |i, j| (-0.2 * (across(i) - across(j)).abs()).exp()),
+        gap_mm: (0..n as usize).map(|i| 0.05 * across(i).powi(2)).collect(),
+        rigid: Mat::from_fn(n as usize, 1, |_, _| -1.0),
+        rigid_load: vec![-5.0],
+    }
+}
+
+/// On gaps that change a little the active set stays, and forces and motion are to the bit those of the whole solution; where a member pulls or its neighbour
+/// penetrates nothing is solved, and a far one is not looked at.
+#[test]
+fn ver_solved_again_with_the_same_active_set() {
+    let problem = parabola();
+    let mut kept = None;
+    let before = problem.solve_with(None, &mut kept).expect("it touches");
+    let last = before.active.iter().rposition(|active| *active).expect("it touches");
+    assert!((22..36).contains(&last), "{last}");
+    let again = |change: &dyn Fn(usize) -> f64| {
+        let (mut found, mut kept) = (before.clone(), kept.clone().expect("there is a solution"));
+        let asked = kept.asked(problem.compliance.as_ref(), &found.active).expect("with this active set");
+        let gap_mm = (0..41).map(|i| if asked[i] { problem.gap_mm[i] + change(i) } else { f64::NAN }).collect();
+        let asks = asked.iter().filter(|asked| **asked).count();
+        let solved = Condensed { gap_mm, ..problem.clone() }.solve_again(&mut found, &kept);
+        let gap_mm = (0..41).map(|i| problem.gap_mm[i] + change(i)).collect();
+        let whole = Condensed { gap_mm, ..problem.clone() }.solve(Some(&before.active)).expect("it touches");
+        (solved, found, whole, asks)
+    };
+    let (solved, found, whole, asks) = again(&|i| 1e-3 * (i as f64).sin());
+    assert!(solved && asks == 2 * (last + 4) - 40 + 1, "{asks}");
+    assert_eq!((&found.force, &found.rigid, &found.active), (&whole.force, &whole.rigid, &whole.active));
+    assert!(found.force != before.force && violation(&problem, &before) < 1e-9);
+    for (place, change) in [(last, 2.0), (last + 1, -2.0), (last + 4, -10.0)] {
+        let (solved, found, whole, _) = again(&|i| if i == place { change } else { 0.0 });
+        assert!(!solved && found == before && whole.active != before.active, "{place}");
+    }
+    let (solved, _, whole, _) = again(&|i| if i == 40 { -40.0 } else { 0.0 });
+    assert!(solved && whole.active[40]);
+}
+
 /// Among random problems full exchanges cycle now and then; each cycle is broken, counted, and the answer is right.
 #[test]
 fn ver_cycles_are_broken() {

@@ -109,7 +109,15 @@ impl CondensedCycle<'_> {
 
     /// Greatest less least transmission error, mm.
     pub(super) fn range_of_transmission_error_mm(&self) -> f64 {
-        let errors_mm = self.along_the_path().into_iter().map(|at| at.transmission_error_mm);
+        let mut found: Vec<(f64, f64)> = Vec::new();
+        for loaded in self.loaded_positions() {
+            let Some(equilibrium) = &loaded.found else { continue };
+            found.extend(self.places_mm(loaded).map(|(_, place_mm)| (place_mm, equilibrium.rigid[0])));
+        }
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (places, errors_mm): (Vec<f64>, Vec<f64>) = found.into_iter().unzip();
+        let course = MonotoneCubic::new(&places, &errors_mm);
+        let errors_mm = self.observation_mm.iter().map(|&position_mm| course.at(position_mm));
         range_mm(errors_mm.chain(self.beside_jumps_mm()))
     }
 
@@ -132,21 +140,27 @@ impl CondensedCycle<'_> {
         ends.map(|(_, share)| share)
     }
 
+    /// Number of each pair that is on the path or beside its ends where the reference pair is at a position, and its own place, mm.
+    fn places_mm(&self, loaded: &CondensedPosition) -> impl Iterator<Item = (i32, f64)> + use<> {
+        let (at_mm, path) = (loaded.prepared.position_mm, &self.model.pair.path);
+        let (start_mm, end_mm, base_pitch_mm) = (path.start_mm, path.end_mm, path.base_pitch_mm);
+        let first = ((start_mm - at_mm) / base_pitch_mm).floor() as i32;
+        let last = ((end_mm - at_mm) / base_pitch_mm).ceil() as i32;
+        (first..=last).map(move |ahead| (ahead, at_mm + f64::from(ahead) * base_pitch_mm))
+    }
+
     /// The reference pair from A to E, from the pairs found in the base pitch.
     fn along_the_path(&self) -> Vec<PositionObservation> {
-        let (path, load) = (&self.model.pair.path, self.line_load_n_per_mm);
+        let load = self.line_load_n_per_mm;
         let mut found: Vec<PositionObservation> = Vec::new();
         for loaded in self.loaded_positions() {
             let Some(equilibrium) = &loaded.found else { continue };
-            let at = loaded.prepared.position_mm;
             let pairs = self.model.tooth_pairs(&loaded.prepared, equilibrium);
             let total: f64 = pairs.iter().map(|pair| pair.line_load_n_per_mm).sum();
-            let first = ((path.start_mm - at) / path.base_pitch_mm).floor() as i32;
-            let last = ((path.end_mm - at) / path.base_pitch_mm).ceil() as i32;
-            found.extend((first..=last).map(|ahead| {
+            found.extend(self.places_mm(loaded).map(|(ahead, position_mm)| {
                 let pair = pairs.iter().find(|pair| pair.pair == ahead);
                 PositionObservation {
-                    position_mm: at + f64::from(ahead) * path.base_pitch_mm,
+                    position_mm,
                     transmission_error_mm: equilibrium.rigid[0],
                     stiffness_n_per_mm2: equilibrium.resistance.first().copied(),
                     load_share: pair.map_or(0.0, |pair| pair.line_load_n_per_mm / load),

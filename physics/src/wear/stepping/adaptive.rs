@@ -156,19 +156,18 @@ impl Adaptive {
         loop {
             let planned = self.control.next().unwrap_or(room).max(floor);
             let mut length = fitting(planned, room);
-            let tried = self.attempt(rate, state, slope, &mut length);
-            let at_floor = length <= floor * (1.0 + 1e-9);
-            match tried {
-                Ok(()) => {}
+            let allowed = SHARE * self.tolerance_at(state);
+            let tried = self.attempt(rate, (state, slope), &mut length, (allowed, floor));
+            let at_floor = is_at_floor(length, floor);
+            let error = match tried {
+                Ok(error) => error,
                 Err(failure) if rate.may_succeed_nearer(&failure) && !at_floor => {
                     self.count_rejected();
                     self.control.set_next(SHORTER * length);
                     continue;
                 }
                 Err(failure) => return Err(failure),
-            }
-            let allowed = SHARE * self.tolerance_at(state);
-            let error = rate.size(&self.error) / allowed;
+            };
             let verdict = self.control.judge(length, error, length < planned);
             if verdict == StepVerdict::Rejected && !(at_floor && error.is_finite()) {
                 self.count_rejected();
@@ -202,16 +201,17 @@ impl Adaptive {
         }
     }
 
-    /// Tries a step, shortened where no number of stages is stable: finds its end, the rate there and the error.
+    /// Tries a step, shortened where no number of stages is stable: finds its end, the rate there and the error over the one that is `allowed`. A step that
+    /// is too long by the sources that changed in its stages is not evaluated in the others.
     fn attempt<R: Rate + ?Sized>(
         &mut self,
         rate: &mut R,
-        state: &[f64],
-        slope: &[f64],
+        start: (&[f64], &[f64]),
         length: &mut f64,
-    ) -> Result<(), R::Error> {
+        (allowed, floor): (f64, f64),
+    ) -> Result<f64, R::Error> {
+        let (state, slope) = start;
         let probe = PROBE * self.tolerance_at(state);
-        let start = (state, slope);
         if self.radius.value().is_none() {
             self.counts.probes += self.radius.estimate(rate, start, probe)?;
             self.age = 0;
@@ -225,9 +225,15 @@ impl Adaptive {
         self.method.step(rate, start, *length, stages, &mut self.end)?;
         self.end.iter_mut().zip(state).for_each(|(end, start)| *end = end.max(*start));
         self.end_slope.resize(state.len(), 0.0);
-        rate.evaluate(&self.end, &mut self.end_slope)?;
+        rate.evaluate_end(&self.end, &mut self.end_slope)?;
         self.estimate_error(state, slope, *length);
-        Ok(())
+        let error = rate.size(&self.error) / allowed;
+        let is_taken = error <= 1.0 || is_at_floor(*length, floor);
+        if !is_taken || !rate.complete_stage(&self.end, &mut self.end_slope)? {
+            return Ok(error);
+        }
+        self.estimate_error(state, slope, *length);
+        Ok(rate.size(&self.error) / allowed)
     }
 
     /// Difference of the mean of the rates at both ends of a step of `length` from its mean rate, times its length, place by place.
@@ -291,6 +297,11 @@ impl Adaptive {
     }
 }
 
+/// Whether a step is not longer than the shortest.
+fn is_at_floor(length: f64, floor: f64) -> bool {
+    length <= floor * (1.0 + 1e-9)
+}
+
 /// Length of a step: `planned`, `room` where that is shorter, or half of `room` where the remainder would be a short step of its own.
 fn fitting(planned: f64, room: f64) -> f64 {
     if planned >= room {
@@ -338,6 +349,65 @@ mod tests {
         fn may_succeed_nearer(&self, _: &Infallible) -> bool {
             false
         }
+    }
+
+    /// A source y₀' that rises at the time t = y₂ = 0.41, beside a slow one, y₁' = y₂, which stays as it is over the stages.
+    #[derive(Default)]
+    struct RisesBesideSlow {
+        kept: Option<f64>,
+        completed: u64,
+    }
+
+    impl Rate for RisesBesideSlow {
+        type Error = Infallible;
+
+        fn evaluate(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), Infallible> {
+            rate.copy_from_slice(&[if state[2] < 0.41 { 0.1 } else { 5.0 }, state[2], 1.0]);
+            Ok(())
+        }
+
+        fn begin_step(&mut self, _: &[f64], rate: &mut [f64]) -> Result<u64, Infallible> {
+            self.kept = Some(rate[1]);
+            Ok(0)
+        }
+
+        fn evaluate_stage(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), Infallible> {
+            let Ok(()) = self.evaluate(state, rate);
+            rate[1] = self.kept.unwrap_or(rate[1]);
+            Ok(())
+        }
+
+        fn complete_stage(&mut self, state: &[f64], rate: &mut [f64]) -> Result<bool, Infallible> {
+            self.completed += 1;
+            self.evaluate(state, rate).map(|()| true)
+        }
+
+        fn may_succeed_nearer(&self, _: &Infallible) -> bool {
+            false
+        }
+    }
+
+    /// Slow sources are found at the ends of the steps that are taken, and not of those that others reject; what they changed by is in the error.
+    #[test]
+    fn ver_slow_sources_are_found_where_a_step_is_taken() {
+        let tolerance = 1e-3;
+        let mut integrator = Adaptive::new(tolerance, 1.0, 3);
+        let mut rate = RisesBesideSlow::default();
+        let (mut state, mut slope) = (vec![0.0, 0.0, 0.01], vec![0.0; 3]);
+        let Ok(()) = rate.evaluate(&state, &mut slope);
+        let mut reached = 0.0;
+        while reached < 1.0 - 1e-12 {
+            let Ok(length) = integrator.step(&mut rate, &mut state, &mut slope, 1.0 - reached);
+            reached += length;
+        }
+        let counts = integrator.counts();
+        assert!(counts.rejected > 0, "{counts:?}");
+        let by_slow = rate.completed - counts.accepted;
+        assert!(by_slow < counts.rejected, "{} completed, {counts:?}", rate.completed);
+        // Euler's method, of which the estimated errors add up.
+        let exact = 0.01 + 0.5;
+        let (off, estimated) = (exact - state[1], integrator.accumulated_error()[1]);
+        assert!(off > 0.0 && (off - estimated / ERROR_FACTOR).abs() < 0.01 * off, "{off:e}, estimated {estimated:e}");
     }
 
     /// A rise that was not there before counts as what it is, however steps are cut.

@@ -23,7 +23,7 @@
 //! with c = 0.8 (Sommeijer, Shampine and Verwer, equation 2.11). It costs nothing: the rate at the end is that at the beginning of the next step.
 //! Slow sources of the rate may stay as they are at the beginning of a step in all of its stages ([`Rate::evaluate_stage`]): positions of the mesh
 //! that wear mildly, beside severe ones whose fast decay cuts the steps short. The rate at the end is that of all sources, so that what they changed by is
-//! in the error.
+//! in the error; unless the others alone reject the step ([`Rate::complete_stage`]).
 //!
 //! Where rates jump to and fro, as at a fine tip edge that wears severely, those at both ends of a step say little of their mean. At a place where
 //! they were as far from the mean rate in earlier steps, and that wears, the change of the mean rate from the step before bounds the estimate:
@@ -54,6 +54,16 @@ pub trait Rate {
     /// As [`Self::evaluate`], within a step from the state where the rate was found last: slow sources of the rate may stay as they were there.
     fn evaluate_stage(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), Self::Error> {
         self.evaluate(state, rate)
+    }
+
+    /// As [`Self::evaluate_stage`], at the end of the step: a rate that stages find near the last one alone is looked for everywhere.
+    fn evaluate_end(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), Self::Error> {
+        self.evaluate_stage(state, rate)
+    }
+
+    /// After [`Self::evaluate_end`] at `state`: finds the sources that stayed as they were there too, and the rate of all. Returns whether there are any.
+    fn complete_stage(&mut self, _state: &[f64], _rate: &mut [f64]) -> Result<bool, Self::Error> {
+        Ok(false)
     }
 
     /// Chooses a part of the sources of the rate, whose fastest decay is that of all, and finds the rate at `state` of that part alone; `None`, and
