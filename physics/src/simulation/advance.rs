@@ -138,7 +138,10 @@ impl Stepper {
                 let (duration, meshes) = (self.duration, self.meshes);
                 let steps =
                     self.adaptive.get_or_insert_with(|| Box::new(AdaptiveSteps::new(pair, tolerance_mm, duration)));
-                steps.advance(PairRate { pair, wear, stopped, meshes, work: Work::default() }, interval)
+                steps.advance(
+                    PairRate { pair, wear, stopped, meshes, work: Work::default(), partial_at_end: 0 },
+                    interval,
+                )
             }
         }
     }
@@ -219,7 +222,7 @@ pub(super) fn fastest_decay(
     let mut depth_mm = wear_mm.clone();
     let state: Vec<f64> = Gear::BOTH.iter().flat_map(|&gear| &wear_mm[gear]).copied().collect();
     let mut slope = vec![0.0; state.len()];
-    let rate = PairRate { pair, wear, stopped, meshes, work: Work::default() };
+    let rate = PairRate { pair, wear, stopped, meshes, work: Work::default(), partial_at_end: 0 };
     rate.read_slope(&mut depth_mm, &mut slope);
     let (wear_mm, depth_mm) = (&mut wear_mm, &mut depth_mm);
     let mut rows = OnRows { rate, wear_mm, depth_mm, clean_start: false, probes_a_part: false };
@@ -236,6 +239,8 @@ struct PairRate<'a> {
     /// Of a tooth of each gear per turn of the pinion.
     meshes: PerGear<f64>,
     work: Work,
+    /// Equilibria at the end of the last step, where they were those of a part of the positions.
+    partial_at_end: u64,
 }
 
 impl PairRate<'_> {
@@ -289,14 +294,18 @@ impl Rate for OnRows<'_, '_> {
 
     fn evaluate_end(&mut self, state: &[f64], slope: &mut [f64]) -> Result<(), EquilibriumError> {
         self.set(state);
-        self.rate.work += self.rate.pair.evaluate_end(self.rate.wear, self.rate.stopped)?;
+        let work = self.rate.pair.evaluate_end(self.rate.wear, self.rate.stopped)?;
+        self.rate.partial_at_end = work.partial_equilibria;
+        self.rate.work += work;
         self.rate.read_slope(self.depth_mm, slope);
         Ok(())
     }
 
     fn complete_stage(&mut self, _state: &[f64], slope: &mut [f64]) -> Result<bool, EquilibriumError> {
         let Some(work) = self.rate.pair.complete_stage(self.rate.wear, self.rate.stopped)? else { return Ok(false) };
-        self.rate.work += work;
+        // With those at the end of the step these are all positions.
+        self.rate.work += Work { mesh_cycles: 1, partial_equilibria: 0, ..work };
+        self.rate.work.partial_equilibria -= self.rate.partial_at_end;
         self.rate.read_slope(self.depth_mm, slope);
         Ok(true)
     }
