@@ -231,12 +231,14 @@ impl LoadedScene {
         self.calibrated_with(calibration, |_, _| {})
     }
 
-    /// Scene on a Winkler foundation with this calibration, as if the file named both, at the resolution of this one.
+    /// Scene on a Winkler foundation with this calibration, as if the file named both, at the resolution of this one but on `most_positions` from A to E at
+    /// most.
     ///
     /// # Errors
     /// A calibration of another pair.
-    pub fn on_calibrated_foundation(&self, calibration: Calibration) -> Result<Self, LoadError> {
+    pub fn on_calibrated_foundation(&self, calibration: Calibration, most_positions: usize) -> Result<Self, LoadError> {
         let resolved: toml::Table = self.to_toml().parse().unwrap_or_default();
+        let positions = self.scene().numerics.positions.min(most_positions) as i64;
         self.calibrated_with(calibration, |draft, of_mesh| {
             for foundation in ["contact.foundation_MPa_per_mm".to_owned(), of_mesh("contact.foundation_MPa_per_mm")] {
                 draft.remove(&foundation);
@@ -246,6 +248,7 @@ impl LoadedScene {
             if let Some(numerics) = resolved.get("numerics") {
                 draft.set(&of_mesh("numerics"), numerics.clone());
             }
+            draft.set(&of_mesh("numerics.positions"), positions);
         })
     }
 

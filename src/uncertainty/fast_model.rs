@@ -168,9 +168,7 @@ fn on_calibrated_foundation(
     let calibrated = guarded(|| runs::calibrate(scene, CalibrationExtent::FastModel, observer));
     let because = match calibrated {
         Ok(Ok(calibrated)) => {
-            let positions = scene.scene().numerics.positions.min(POSITIONS) as i64;
-            let on_foundation = scene.on_calibrated_foundation(calibrated.calibration);
-            let on_foundation = on_foundation.and_then(|scene| scene.with("numerics.positions", positions));
+            let on_foundation = scene.on_calibrated_foundation(calibrated.calibration, POSITIONS);
             return Ok(on_foundation.map_err(|error| one_line(&error.to_string())));
         }
         Ok(Err(CalibrateError::Interrupted)) => return Err(UncertaintyStudyError::Interrupted),
@@ -299,7 +297,12 @@ fn keeps_the_teeth(given: &VariedScene, question: &SampledQuestion) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
+    use crate::scene::loaded::SceneText;
+    use crate::scene::planetary::PlanetaryScene;
+    use gearwear_physics::observer::Unwatched;
 
     /// What two keys do against one another would not be seen where they only move together.
     #[test]
@@ -312,5 +315,19 @@ mod tests {
             }
         }
         assert_eq!(corners(1).len(), 2);
+    }
+
+    /// A pair, and a mesh of a stage, whose own table lies above that of both, are on the foundation with its positions.
+    #[test]
+    fn the_foundation_takes_few_positions() {
+        let text = include_str!("../../examples/planetary_stage.toml").to_owned();
+        let stage = PlanetaryScene::from_text(SceneText { name: "stage".to_owned(), text }, Path::new("")).unwrap();
+        let [pair, mesh] = [LoadedScene::preset("fzg-c").unwrap(), stage.meshes.planet_ring];
+        for scene in [pair, mesh] {
+            assert!(scene.scene().numerics.positions > POSITIONS);
+            let found = on_calibrated_foundation(&scene, &Unwatched).unwrap().unwrap();
+            let found = found.scene();
+            assert_eq!((found.contact.surface, found.numerics.positions), (SurfaceKind::Winkler, POSITIONS));
+        }
     }
 }

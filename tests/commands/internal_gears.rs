@@ -250,6 +250,11 @@ fn runs_are_verified() {
             let claimed = summary["error"]["total"]["profile"][gear].as_f64().expect("a run that is verified");
             assert!(claimed < 0.1, "{surface} {gear}: {claimed}");
         }
+        // Of worn internal pairs more than the 1 % of external ones (case verified-internal-pairs).
+        let total = &summary["error"]["total"];
+        let how = total["how"].as_str().unwrap();
+        assert!(how.contains("of the flank pressure 1 % new and 1.5 % worn"), "{how}");
+        assert!(total["flank_pressure"]["worn"].as_f64().unwrap() >= 0.015, "{total}");
         let scene = fs::read_to_string(folder.path().join("out/scene.toml")).unwrap();
         assert!(scene.contains("rim_thickness_mm = 10.5"), "{scene}");
     }

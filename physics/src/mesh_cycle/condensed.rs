@@ -344,17 +344,10 @@ impl CondensedGroup {
     /// Evaluates the positions that keep their wear, after [`Self::evaluate_end`], and collects the wear of all.
     fn complete_stage(&mut self, step: &WearEvaluation<'_>) {
         self.collected.clear();
-        for loaded in &mut self.loaded_positions {
-            let solved = match loaded.keeps_wear {
-                true if (step.stopped)() => Err(EquilibriumError::Interrupted),
-                true => loaded.solve(step),
-                false => Ok(Work::default()),
-            };
-            if !self.collected.take(solved) {
-                return;
-            }
-            loaded.wear(step, &mut self.rows, &mut self.collected.depth_mm);
-        }
+        let solve_kept = |loaded: &mut CondensedPosition, step: &WearEvaluation<'_>| {
+            if loaded.keeps_wear { loaded.solve(step) } else { Ok(Work::default()) }
+        };
+        self.evaluate_those(|_| true, solve_kept, step);
     }
 
     /// Collects the wear of some of the positions.

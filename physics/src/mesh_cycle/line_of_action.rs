@@ -209,7 +209,7 @@ impl LineOfActionGroup<'_> {
         stopped: &(dyn Fn() -> bool + Sync),
     ) {
         self.collected.clear();
-        self.evaluate_those(|_| true, removed_mm, line_load, wear, stopped);
+        self.evaluate_those(|_| true, |loaded| loaded.solve(removed_mm, line_load), removed_mm, wear, stopped);
     }
 
     /// As [`Self::evaluate`], but for positions that keep their wear.
@@ -221,7 +221,13 @@ impl LineOfActionGroup<'_> {
         stopped: &(dyn Fn() -> bool + Sync),
     ) {
         self.collected.begin_from(&self.kept_mm);
-        self.evaluate_those(|loaded| !loaded.keeps_wear, removed_mm, line_load, wear, stopped);
+        self.evaluate_those(
+            |loaded| !loaded.keeps_wear,
+            |loaded| loaded.solve(removed_mm, line_load),
+            removed_mm,
+            wear,
+            stopped,
+        );
     }
 
     /// Evaluates the positions that keep their wear, after [`Self::evaluate_stage`], and collects the wear of all.
@@ -233,32 +239,23 @@ impl LineOfActionGroup<'_> {
         stopped: &(dyn Fn() -> bool + Sync),
     ) {
         self.collected.clear();
-        for loaded in &mut self.loaded_positions {
-            let solved = match loaded.keeps_wear {
-                true if stopped() => Err(EquilibriumError::Interrupted),
-                true => loaded.solve(removed_mm, line_load),
-                false => Ok(Work::default()),
-            };
-            if !self.collected.take(solved) {
-                return;
-            }
-            let contact = (&loaded.pairs[0], &loaded.place);
-            self.points.wear(wear, contact, removed_mm, PerGear::default(), &mut self.collected.depth_mm);
-        }
+        let solve_kept = |loaded: &mut LineOfActionPosition<'_>| {
+            if loaded.keeps_wear { loaded.solve(removed_mm, line_load) } else { Ok(Work::default()) }
+        };
+        self.evaluate_those(|_| true, solve_kept, removed_mm, wear, stopped);
     }
 
     /// Collects the wear of some of the positions.
     fn evaluate_those(
         &mut self,
         are_asked: impl Fn(&LineOfActionPosition<'_>) -> bool,
+        solve: impl Fn(&mut LineOfActionPosition<'_>) -> Result<Work, EquilibriumError>,
         removed_mm: PerGear<&[f64]>,
-        line_load: f64,
         wear: &WearModel<'_>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) {
         for loaded in self.loaded_positions.iter_mut().filter(|loaded| are_asked(loaded)) {
-            let solved =
-                if stopped() { Err(EquilibriumError::Interrupted) } else { loaded.solve(removed_mm, line_load) };
+            let solved = if stopped() { Err(EquilibriumError::Interrupted) } else { solve(loaded) };
             if !self.collected.take(solved) {
                 return;
             }

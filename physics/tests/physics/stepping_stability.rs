@@ -134,6 +134,10 @@ fn assert_sound(what: &str, outcome: &Outcome) {
     // The first evaluation belongs to no step; a rejected step may have ended before its last stage.
     assert!(outcome.work.mesh_cycles <= 1 + steps.stages + steps.probes, "{what}: {steps:?}");
     assert_eq!(steps.at_floor, 0, "{what}: {steps:?}");
+    // Every step that is taken ends with an evaluation of all positions, and these are as many each time.
+    let work = outcome.work;
+    assert!(work.mesh_cycles > steps.accepted, "{what}: {work:?}, {steps:?}");
+    assert_eq!((work.equilibria - work.partial_equilibria) % work.mesh_cycles, 0, "{what}: {work:?}");
 }
 
 /// Greatest difference of the wear, µm, and where on which flank it is.

@@ -413,6 +413,13 @@ mod tests {
         // The edge of the tip relief of 3 mm, by its radius of curvature.
         let kink_mm = linear.teeth.pinion.edge_rho_mm() - 3.0;
         assert!((zone.start.midpoint(zone.end) - kink_mm).abs() < 1e-9, "{zone:?} {kink_mm}");
+        // At its ends the contact has moved by a half-width along the flank, by lengths s = ρ²/(2 r_b) of the involute, whose curvature changes by a few per cent.
+        let along_mm = |rho_mm: f64| rho_mm.powi(2) / (2.0 * linear.path.involute.pinion.base_radius_mm);
+        let half_width_mm = with_positions(&linear, 400, 0.02).half_width_mm;
+        for end_mm in [zone.start, zone.end] {
+            let moved_mm = (along_mm(end_mm) - along_mm(kink_mm)).abs();
+            assert!((moved_mm / half_width_mm - 1.0).abs() < 0.05, "{moved_mm} {half_width_mm}");
+        }
         let longest_in = |stretches: &[(f64, f64)]| {
             let in_zone = stretches
                 .iter()
