@@ -46,8 +46,13 @@ impl RunModel<'_> {
 
     /// Zones of both flanks, for the half-width of contact under the greatest load of any phase.
     pub(super) fn zones(&self) -> PerGear<FlankZones> {
+        FlankZones::of_pair(self.pair, self.greatest_half_width_mm())
+    }
+
+    /// Half-width of contact at the pitch point under the greatest load of any phase, mm.
+    pub(super) fn greatest_half_width_mm(&self) -> f64 {
         let greatest = self.phases.iter().map(|phase| phase.line_load_n_per_mm).fold(0.0, f64::max);
-        FlankZones::of_pair(self.pair, self.at_pitch.contact.loaded(greatest).half_width_mm)
+        self.at_pitch.contact.loaded(greatest).half_width_mm
     }
 
     /// Duration of the run, pinion revolutions.

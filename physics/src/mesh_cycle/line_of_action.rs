@@ -117,20 +117,6 @@ impl MeshCycle for LineOfActionCycle<'_> {
         Ok(work.of_a_part())
     }
 
-    fn choose_part(&mut self) -> bool {
-        self.some_keep_wear
-    }
-
-    fn evaluate_part(
-        &mut self,
-        lost: LostMaterial<'_>,
-        wear: &WearModel<'_>,
-        depth_mm: &mut PerGear<Vec<f64>>,
-        stopped: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Work, EquilibriumError> {
-        self.evaluate_stage(lost, wear, depth_mm, stopped)
-    }
-
     fn complete_stage(
         &mut self,
         lost: LostMaterial<'_>,

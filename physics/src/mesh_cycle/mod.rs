@@ -219,8 +219,8 @@ pub trait MeshCycle {
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError>;
 
-    /// Chooses a part of the positions in which waves of wear decay as fast as in any: of those evaluated last, the part that wears deepest, or those that do not
-    /// keep their wear over the stages of a step. Returns whether there is one.
+    /// Chooses a part of the positions in which waves of wear decay as fast as in any: of those evaluated last, the part that wears deepest. Returns
+    /// whether there is one.
     fn choose_part(&mut self) -> bool {
         false
     }

@@ -340,18 +340,6 @@ impl WearingPair for OnFlankNodes<'_> {
         self.cycle.evaluate_end(lost(&self.lost_mm), wear, &mut self.depth_mm, stopped)
     }
 
-    fn choose_part(&mut self) -> bool {
-        self.cycle.choose_part()
-    }
-
-    fn evaluate_part(
-        &mut self,
-        wear: &WearModel<'_>,
-        stopped: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Work, EquilibriumError> {
-        self.cycle.evaluate_part(lost(&self.lost_mm), wear, &mut self.depth_mm, stopped)
-    }
-
     fn complete_stage(
         &mut self,
         wear: &WearModel<'_>,

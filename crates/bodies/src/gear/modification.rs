@@ -27,6 +27,15 @@ pub struct Relief {
     pub shape: ReliefShape,
 }
 
+/// Place where a flank turns at once.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Kink {
+    /// Radius of curvature of the involute there, mm.
+    pub rho_mm: f64,
+    /// Angle between both sides, rad.
+    pub angle_rad: f64,
+}
+
 /// Relief towards both ends of the face width.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EndRelief {

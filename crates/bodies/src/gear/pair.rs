@@ -9,7 +9,7 @@
 
 use std::f64::consts::PI;
 
-use super::modification::{Modification, ReliefShape};
+use super::modification::{Kink, Modification, Relief, ReliefShape};
 use super::{
     Gear, PairError, PerGear, backlash::Backlash, internal_error::InternalError, path_of_contact::PathOfContact,
     spec::PairSpec, tooth::Tooth,
@@ -130,14 +130,24 @@ impl GearPair {
         }
     }
 
-    /// Radii of curvature where the reliefs of a gear's flank begin, with their shapes; without reliefs of zero amount.
-    pub fn begins_of_reliefs(&self, gear: Gear) -> impl Iterator<Item = (f64, ReliefShape)> + use<> {
+    /// Radii of curvature where the reliefs of a gear's flank begin; without reliefs of zero amount.
+    pub fn begins_of_reliefs(&self, gear: Gear) -> impl Iterator<Item = (f64, Relief)> + use<> {
         let Modification { tip_relief, root_relief, .. } = self.spec.gears[gear].modification;
         let (edge_rho_mm, start_rho_mm) = (self.teeth[gear].edge_rho_mm(), self.active_start_rho_mm(gear));
         let of_tip = tip_relief.map(|relief| (edge_rho_mm - relief.length_mm, relief));
         let of_root = root_relief.map(|relief| (start_rho_mm + relief.length_mm, relief));
-        let begins = of_tip.into_iter().chain(of_root).filter(|(_, relief)| relief.amount_mm > 0.0);
-        begins.map(|(rho_mm, relief)| (rho_mm, relief.shape))
+        of_tip.into_iter().chain(of_root).filter(|(_, relief)| relief.amount_mm > 0.0)
+    }
+
+    /// Kinks of a gear's flank, where its linear reliefs begin.
+    pub fn kinks(&self, gear: Gear) -> impl Iterator<Item = Kink> + use<> {
+        let base_radius_mm = self.path.involute[gear].base_radius_mm;
+        let linear = self.begins_of_reliefs(gear).filter(|(_, relief)| relief.shape == ReliefShape::Linear);
+        linear.map(move |(rho_mm, relief)| Kink {
+            rho_mm,
+            // Along the flank, s grows by ρ/r_b of the roll length.
+            angle_rad: relief.amount_mm / relief.length_mm * (base_radius_mm / rho_mm).abs(),
+        })
     }
 
     /// Radius r_Nf of the start of active profile (SAP): that of the contact with the mate's tip, or the form circle where it is larger.

@@ -118,7 +118,7 @@ pub(super) struct FacingTeeth {
     /// Distance of these rows from the slave's tip end, mm.
     along_mm: Vec<f64>,
     /// Hertz half-width of contact under the whole load.
-    half_width_mm: f64,
+    pub half_width_mm: f64,
     pub first_row: usize,
 }
 

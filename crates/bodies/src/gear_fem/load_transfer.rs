@@ -2,7 +2,7 @@
 //!
 //! Each multiplier represents a stretch of the slave's flank, as long as its weight, and the stretch of the master that faces it along the slave's
 //! normals. While the theoretical contact point passes the stretch of path that a position represents, the contact moves
-//! along both flanks, and both stretches with it. The wear of the multiplier is spread evenly over them, and its gap
+//! along both flanks, and both stretches with it, but where a kink of a flank holds the pressure ([`super::kinks`]). The wear of the multiplier is spread evenly over them, and its gap
 //! is opened by the mean depth on them:
 //!
 //! ```text
@@ -53,6 +53,7 @@ use pulp::Arch;
 use super::condensed_pair::CondensedPair;
 use super::facing_teeth::FacingTeeth;
 use super::flank_nodes::{FlankNodes, Weights};
+use super::kinks::Kinks;
 use super::placement::{axis_mm, in_place_mm, tooth_angle_rad};
 use super::prepared::PreparedPosition;
 use super::tilted::Worn;
@@ -241,7 +242,8 @@ impl CondensedPair<'_> {
         worn: Option<Worn<'_>>,
     ) -> Vec<LoadTransfer> {
         let passing = Passing { position_mm: prepared.position_mm, stretch_mm, turned_mm };
-        prepared.facings.iter().map(|facing| self.load_transfer(passing, facing, nodes, worn)).collect()
+        let kinks = Kinks::of(self, nodes);
+        prepared.facings.iter().map(|facing| self.load_transfer(passing, facing, nodes, &kinks, worn)).collect()
     }
 
     fn load_transfer(
@@ -249,6 +251,7 @@ impl CondensedPair<'_> {
         passing: Passing,
         facing: &FacingTeeth,
         nodes: PerGear<&FlankNodes>,
+        kinks: &Kinks,
         worn: Option<Worn<'_>>,
     ) -> LoadTransfer {
         let Passing { position_mm, stretch_mm, turned_mm } = passing;
@@ -264,8 +267,7 @@ impl CondensedPair<'_> {
             None => vec![0.0; facing.coupling.len()],
         };
         let (moved, off_mm) = self.off_mm(passing, facing);
-        let mut moves = PerGear::from_fn(|gear| self.contact_moves_mm(position_mm, stretch_mm, facing.pair, gear));
-        moves[moved].iter_mut().for_each(|end| *end += off_mm);
+        let contact_mm = PerGear::from_fn(|gear| self.contact_moves_mm(position_mm, stretch_mm, facing.pair, gear));
         let mut sums = PerGear::from_fn(|gear| vec![0.0; nodes[gear].len()]);
         let mut means: PerGear<StretchMeans> = PerGear::default();
         let (mut sliding_mm, mut along_mm) = (Vec::new(), Vec::new());
@@ -275,9 +277,13 @@ impl CondensedPair<'_> {
             let place = own.place[node];
             let [one, other] = ends.map(|node| own.loaded_mm[own.place[node]]);
             let loaded = [one[0].min(other[0]), one[1].max(other[1])];
+            let faced = faced_mm(own, &feet, place, loaded);
+            let mut at_mm = PerGear::from_fn(|_| loaded[0].midpoint(loaded[1]));
+            at_mm[slave.mate()] = faced[0].midpoint(faced[1]);
+            let mut moves = kinks.moves_mm(contact_mm, at_mm, facing.half_width_mm);
+            moves[moved].iter_mut().for_each(|end| *end += off_mm);
             let reached = spread(own, loaded, moves[slave], &mut sums[slave]);
             means[slave].push(reached, &mut sums[slave], 1.0);
-            let faced = faced_mm(own, &feet, place, loaded);
             let reached = spread(mate, faced, moves[slave.mate()], &mut sums[slave.mate()]);
             let cosine = feet.get(&place).map_or(1.0, |foot| foot.cosine).max(LEAST_COSINE);
             means[slave.mate()].push(reached, &mut sums[slave.mate()], 1.0 / cosine);
@@ -382,8 +388,8 @@ impl CondensedPair<'_> {
         self.pair.path.rho_mm(gear, own_mm) > self.involute_end_mm(gear)
     }
 
-    /// Movement of the contact of a tooth pair along `gear`'s flank while the theoretical contact point passes `stretch_mm`, mm: towards
-    /// root (negative) and tip from its place at `position_mm`.
+    /// Movement of the contact of a tooth pair along `gear`'s flank, towards the tip, from its place at `position_mm` to those at the
+    /// beginning and the end of `stretch_mm`, mm.
     fn contact_moves_mm(&self, position_mm: f64, stretch_mm: (f64, f64), pair: i32, gear: Gear) -> [f64; 2] {
         let path = &self.pair.path;
         let ahead_mm = f64::from(pair) * path.base_pitch_mm;
@@ -401,8 +407,7 @@ impl CondensedPair<'_> {
             };
             path.involute[gear].arc_mm(rho_mm)
         });
-        let (a, b) = (first - here, last - here);
-        [a.min(b), a.max(b)]
+        [first - here, last - here]
     }
 
     /// ρ where the involute of a gear's flank ends, at its tip circle or where the rounding begins.
@@ -448,8 +453,9 @@ fn foot(masters: &[MasterNode], point: Vector2<f64>, normal: Vector2<f64>) -> Op
     nearest
 }
 
-/// Adds the means over `stretch_mm` while it moves by `moves_mm` to either side; returns the range of nodes with weight.
+/// Adds the means over `stretch_mm` while it moves from one of `moves_mm` to the other; returns the range of nodes with weight.
 fn spread(nodes: &FlankNodes, stretch_mm: [f64; 2], moves_mm: [f64; 2], sums: &mut [f64]) -> std::ops::Range<usize> {
+    let moves_mm = [moves_mm[0].min(moves_mm[1]), moves_mm[0].max(moves_mm[1])];
     let (length, way) = (stretch_mm[1] - stretch_mm[0], moves_mm[1] - moves_mm[0]);
     let parts = ((2.0 * way / length.max(1e-9)).ceil()).clamp(1.0, MOST_PARTS as f64) as usize;
     if parts as f64 * length <= way {

@@ -9,6 +9,7 @@ pub mod flank_surface;
 pub mod full;
 mod half_turn;
 pub mod in_space;
+mod kinks;
 pub mod load_transfer;
 pub mod model;
 pub mod placement;

@@ -16,16 +16,14 @@ use nalgebra::{Rotation2, Vector2};
 
 use super::whole_gear::{GearMesh, ToothNodes, gear_mesh};
 use super::{FlankResolution, LEAST_MODULES, SectorSettings, ToothMeshError, ToothSector, ToothShape, sector};
-use crate::gear::{Gear, GearPair, PerGear, modification::ReliefShape};
+use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::settings::{
-    BodySettings, DEPTH_HALF_WIDTHS, FILLET_ELEMENTS, MARGIN_HALF_WIDTHS, rounding_element_mm,
+    AT_KINK, BodySettings, DEPTH_HALF_WIDTHS, FILLET_ELEMENTS, MARGIN_HALF_WIDTHS, rounding_element_mm,
 };
 use gearwear_mesh::{CellBlock, CellKind, Mesh};
 
 /// Arc of flank above the start of active profile that the mate's tip edge touches, early contact included, in half-widths.
 const TIP_MEETS_HALF_WIDTHS: f64 = 3.0;
-/// Element length where a linear relief begins, on either flank, over that elsewhere.
-const AT_KINK: f64 = 1.0 / 3.0;
 /// Distance over which elements grow from there to the usual length, in half-widths: slow enough for the layer of quadrilaterals.
 const KINK_REACHES_HALF_WIDTHS: f64 = 3.0;
 
@@ -100,9 +98,7 @@ impl<'a> ResolvedHalfWidth<'a> {
         let least_mm = 2.0 * LEAST_MODULES * pair.spec.normal_module_mm * settings.elements_per_half_width;
         let kinks_mm = Gear::BOTH
             .into_iter()
-            .flat_map(|of| pair.begins_of_reliefs(of).map(move |(rho_mm, shape)| (of, rho_mm, shape)))
-            .filter(|&(_, _, shape)| shape == ReliefShape::Linear)
-            .map(|(of, rho_mm, _)| path.rho_mm(gear, path.rho_mm(of, rho_mm)))
+            .flat_map(|of| pair.kinks(of).map(move |kink| path.rho_mm(gear, path.rho_mm(of, kink.rho_mm))))
             .map(|rho_mm| path.involute[gear].arc_mm(path.involute[gear].on_flank_mm(rho_mm)))
             .collect();
         let mut resolved = Self {

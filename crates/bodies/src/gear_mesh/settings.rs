@@ -11,12 +11,20 @@ pub(crate) const MARGIN_HALF_WIDTHS: f64 = 3.0;
 /// Depth of the structured layer under a flank, in half-widths of contact.
 pub(crate) const DEPTH_HALF_WIDTHS: f64 = 1.0;
 
+/// Element length where a linear relief begins, on either flank, over that elsewhere.
+pub(crate) const AT_KINK: f64 = 1.0 / 3.0;
+
 /// Half-width of contact on a rounded tip edge over its radius, for the length of elements there.
 const ROUNDING_HALF_WIDTH: f64 = 0.3;
 
 /// Element length on a tip rounding, mm, with a refinement ([`BodySettings::rounding_refinement`]).
 pub fn rounding_element_mm(rounding_mm: f64, elements_per_half_width: f64, refinement: f64) -> f64 {
     ROUNDING_HALF_WIDTH * rounding_mm / (elements_per_half_width * refinement)
+}
+
+/// Element length at a kink of a flank, mm, in a contact of this half-width.
+pub fn kink_element_mm(half_width_mm: f64, elements_per_half_width: f64) -> f64 {
+    AT_KINK * half_width_mm / elements_per_half_width
 }
 
 /// Default depth of the body below the root circle, in transverse modules.

@@ -9,7 +9,8 @@
 //!
 //! ```text
 //! profile       √(∫ (h − h_f)² ds / ∫ h_f² ds) + u        of a flank
-//! peak wear     |max h − max h_f| / max h_f + u           of the active profile of a flank, and of its tip edge
+//! peak wear     |max h − max h_f| / max h_f + u           of the active profile of a flank, and of its tip edge; no less than what
+//!                                                         wear at a kink, with its own uncertainty, exceeds max h by
 //! transmission error   the same for its peak to peak on worn flanks
 //! pressure      √(mean of (p/p_f − 1)²) + u               of the greatest pressure at the positions between the tip edges, on worn flanks
 //! flank pressure      |p − p_f| / p_f + u                 of the greatest between the tip-edge zones, on new and on worn flanks
@@ -19,10 +20,14 @@
 //! answer where both approach that at second order; a run with slices with one on three-dimensional finite elements ([`in_space`]).
 
 mod in_space;
+mod uncertainty;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use self::uncertainty::{
+    HARDLY_WORN, OF_ELEMENTS, ON_HARDLY_WORN_EDGES, ReferenceUncertainty, of_hardly_worn_edge, of_hardly_worn_kink,
+};
 use super::RunModel;
 use super::guarded::guarded;
 use super::inputs::RunInputs;
@@ -44,7 +49,7 @@ use crate::stiffness::curve::PairCompliance;
 use crate::wear::stepping::adaptive::SHALLOW_MM;
 use gearwear_bodies::gear::{Gear, GearPair, PerGear, flank::FlankGrid, flank_zones::FlankZone};
 use gearwear_bodies::gear_fem::{condensed_pair::CondensedPair, model::ModelError};
-use gearwear_bodies::gear_mesh::settings::{BodySettings, rounding_element_mm};
+use gearwear_bodies::gear_mesh::settings::{BodySettings, kink_element_mm};
 use gearwear_bodies::material::Material;
 use gearwear_bodies::reference::flattening::Flattening;
 
@@ -60,55 +65,6 @@ const LEAST_TOLERANCE_MM: f64 = 1e-9;
 const MOST_STEPS: u64 = 2000;
 /// Half-widths of contact at the pitch point from A and E within which the tip edges shape the pressure.
 const NEAR_TIP_EDGES: f64 = 3.0;
-
-/// Relative uncertainties of a reference run.
-struct ReferenceUncertainty {
-    profile: f64,
-    peak: f64,
-    tip_edge: f64,
-    transmission_error: f64,
-    pressure: f64,
-    /// Greatest pressure between the tip-edge zones, on new and on worn flanks.
-    flank_pressure: [f64; 2],
-}
-
-/// Uncertainty of plane finite elements. Contacts at tip edges are narrower than the elements are meshed for, and contain the end of the wear.
-const OF_ELEMENTS: ReferenceUncertainty = ReferenceUncertainty {
-    profile: 0.006,
-    peak: 0.006,
-    tip_edge: 0.015,
-    transmission_error: 0.005,
-    pressure: 0.02,
-    flank_pressure: [0.01, 0.01],
-};
-/// Uncertainty of the wear of a hardly worn tip edge, per bulge of an element of its rounding beyond its chord, over the depth: a contact narrower than
-/// the element is placed to within the length of the element.
-const OF_BULGE: f64 = 0.01;
-/// Uncertainty of the tip-edge wear above which the elements of roundings are refined: the depth is less than ten times the bulge.
-const HARDLY_WORN: f64 = 0.001;
-/// Refinement of the elements of hardly worn roundings.
-const ON_HARDLY_WORN_EDGES: f64 = 3.0;
-/// Greatest uncertainty of the wear of a tip edge.
-const MOST_OF_TIP_EDGE: f64 = 0.2;
-/// Uncertainty of profile and peak wear under severe wear: difference to elements twice as fine on nine of ten random pairs.
-const SEVERE: f64 = 0.02;
-
-/// Uncertainty of the greatest pressure on worn flanks of an internal pair, which lies in a narrow maximum beside the tip-edge zones.
-const WORN_INSIDE: f64 = 0.015;
-
-impl ReferenceUncertainty {
-    /// Uncertainty of an internal pair.
-    fn internal(self) -> Self {
-        let [new, worn] = self.flank_pressure;
-        Self { flank_pressure: [new, worn.max(WORN_INSIDE)], ..self }
-    }
-
-    /// Uncertainty under severe wear.
-    fn severe(self) -> Self {
-        let Self { profile, peak, tip_edge, .. } = self;
-        Self { profile: profile.max(SEVERE), peak: peak.max(SEVERE), tip_edge: tip_edge.max(SEVERE), ..self }
-    }
-}
 
 /// Finite-element models at hand for a verification.
 pub(super) struct VerificationModels<'a, 'b> {
@@ -407,7 +363,8 @@ impl<'a> RunComparison<'a> {
         let total = TotalError {
             profile: per_gear(|gear| self.profile(gear)),
             peak_wear: per_gear(|gear| {
-                self.peak_difference(gear).map(|off| extrapolation.wear * off + uncertainty.peak)
+                let off = extrapolation.wear * self.peak_difference(gear)?;
+                Some(off.max(self.beyond_at_kinks(gear)) + uncertainty.peak)
             }),
             tip_edge_wear: per_gear(|gear| self.tip_edge_wear(gear)),
             transmission_error_peak_to_peak: self.transmission_error(|outcome| outcome.worn.cycle.peak_to_peak_mm()),
@@ -451,6 +408,25 @@ impl<'a> RunComparison<'a> {
     /// Relative difference of the greatest wear of the active profile.
     fn peak_difference(&self, gear: Gear) -> Option<f64> {
         relative(self.wear[gear].peak_mm, self.reference_wear[gear].peak_mm)
+    }
+
+    /// Part of the greatest wear of a gear's active profile by which that at a kink may exceed it.
+    fn beyond_at_kinks(&self, gear: Gear) -> f64 {
+        let Some(bodies) = &self.reference.bodies else { return 0.0 };
+        let (pair, grid) = (self.model.pair, &self.run.grid[gear]);
+        let element_mm = kink_element_mm(self.model.greatest_half_width_mm(), bodies.elements_per_half_width);
+        let [own, reference] = [&self.run.worn.wear_mm[gear], &self.reference.wear_mm[gear]];
+        let at_kinks_mm = pair.kinks(gear).map(|kink| {
+            let kink_mm = pair.path.involute[gear].arc_mm(kink.rho_mm);
+            let beside = grid
+                .arc_mm
+                .iter()
+                .zip(own.iter().zip(reference))
+                .filter(|(arc_mm, _)| (*arc_mm - kink_mm).abs() <= element_mm);
+            let depth_mm = beside.fold(0.0, |deepest: f64, (_, (own, reference))| deepest.max(*own).max(*reference));
+            depth_mm * (1.0 + of_hardly_worn_kink(kink.angle_rad, element_mm, depth_mm))
+        });
+        (at_kinks_mm.fold(0.0, f64::max) - self.wear[gear].peak_mm) / self.reference_wear[gear].peak_mm
     }
 
     /// Error of the greatest wear of the tip edge.
@@ -500,18 +476,6 @@ fn integral_of_squares(grid: &FlankGrid, values: impl Iterator<Item = f64>) -> f
 fn without_wear(figures: &PerGear<WearFigures>) -> String {
     let still = Gear::BOTH.into_iter().filter(|gear| figures[*gear].peak_mm <= 0.0);
     still.map(|gear| format!("; the {} does not wear, so that its wear has no error", gear.name())).collect()
-}
-
-/// Uncertainty by the length of the elements of the wear of a rounded tip edge that is `depth_mm` deep.
-fn of_hardly_worn_edge(pair: &GearPair, gear: Gear, bodies: &BodySettings, depth_mm: f64) -> f64 {
-    let rounding_mm = pair.spec.tip_rounding_mm(gear);
-    if rounding_mm <= 0.0 || depth_mm <= 0.0 {
-        return 0.0;
-    }
-    let BodySettings { elements_per_half_width, rounding_refinement, .. } = *bodies;
-    let element_mm = rounding_element_mm(rounding_mm, elements_per_half_width, rounding_refinement);
-    let bulge_mm = element_mm.powi(2) / (8.0 * rounding_mm);
-    (OF_BULGE * bulge_mm / depth_mm).min(MOST_OF_TIP_EDGE)
 }
 
 /// |own − truth|/truth; none where the truth is 0.

@@ -9,20 +9,12 @@
 //! is several times the distance of positions that divide A–E evenly, and wear and pressure beside the start of active profile were off by up to 9 % with
 //! it. They move a quarter, and all their distances follow the number of positions asked for: a verification on fewer positions is coarser everywhere, and
 //! does not share with the run what its positions do.
-//!
-//! Where a linear relief begins, the flank has a kink, and the pressure a peak that stays on it, while the contact carries its pressure along over the stretch
-//! between two positions: the ridge of lightly worn flanks there is too low by an error of first order in their distance (20 % of a ridge of 0.06 µm;
-//! wear of some µm rounds the kink). While a contact passes over a kink, distances follow the number of positions, too: a
-//! verification on two thirds of them has 1.5 times the error, and differs from the run by half of what the run errs.
 
-use std::ops::Range;
-
-use gearwear_bodies::gear::modification::ReliefShape;
-use gearwear_bodies::gear::{Gear, GearPair};
+use gearwear_bodies::gear::GearPair;
 use gearwear_bodies::gear_fem::condensed_pair::{CondensedPair, hertz_half_width_mm};
 
 /// Distance of positions.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy)]
 struct Apart {
     /// Distance in Hertz half-widths at the pitch point: a contact must not move much farther than it is wide.
     half_widths: f64,
@@ -36,8 +28,8 @@ const APART: Apart = Apart { half_widths: 0.5, limits: [0.5, 4.0] };
 const APART_INSIDE: Apart = Apart { half_widths: 0.25, ..APART };
 /// Distance where a tip edge touches, and contact is narrower.
 const APART_AT_TIP_EDGES: Apart = Apart { half_widths: 0.15, limits: [0.25, 1.0] };
-/// Positions from A to E for which distances in half-widths hold, of an internal pair, and at kinks.
-const POSITIONS: f64 = 400.0;
+/// Positions from A to E for which distances in half-widths of an internal pair hold.
+const POSITIONS_INSIDE: f64 = 400.0;
 /// Length of the path beyond A and E, over the reach of unworn tip edges under the approach at the pitch point.
 const AMPLE_APPROACH: f64 = 1.3;
 /// Length within A–E on which the tip edge still changes a contact, in Hertz half-widths at the pitch point.
@@ -47,32 +39,16 @@ const OUTSIDE_JUMP_HALF_WIDTHS: f64 = 0.5;
 /// Part of the base pitch within which two places of the path are the same.
 const SAME_PLACE: f64 = 1e-9;
 
-/// Distances of positions by what touches.
-#[derive(Clone, Copy)]
-struct Distances {
-    /// Away from tip edges and kinks.
-    away: Apart,
-    /// While a contact passes over a kink.
-    at_kinks: Apart,
-    /// At tip edges.
-    at_tip_edges: Apart,
-}
-
-impl Distances {
-    /// Distances of a pair, for positions about as close as `positions` from A to E.
-    fn of(pair: &GearPair, positions: usize) -> Self {
-        let scale = POSITIONS / positions as f64;
-        let (own, scale_away) = if pair.spec.is_internal() { (APART_INSIDE, scale) } else { (APART, 1.0) };
-        let scaled = |own: Apart, scale: f64| Apart { half_widths: scale * own.half_widths, ..own };
-        Self {
-            away: scaled(own, scale_away),
-            at_kinks: scaled(own, scale),
-            at_tip_edges: scaled(APART_AT_TIP_EDGES, scale_away),
-        }
-    }
-}
-
 impl Apart {
+    /// Distances of a pair away from the tip edges and at them, for positions about as close as `positions` from A to E.
+    fn of(pair: &GearPair, positions: usize) -> [Self; 2] {
+        if !pair.spec.is_internal() {
+            return [APART, APART_AT_TIP_EDGES];
+        }
+        let scale = POSITIONS_INSIDE / positions as f64;
+        [APART_INSIDE, APART_AT_TIP_EDGES].map(|own| Self { half_widths: scale * own.half_widths, ..own })
+    }
+
     /// Distance with a half-width, where positions that divide A–E evenly are `even_mm` apart.
     fn mm(self, half_width_mm: f64, even_mm: f64) -> f64 {
         let [least, most] = self.limits;
@@ -91,7 +67,8 @@ pub(super) struct BasePitch<'a> {
     half_width_mm: f64,
     /// Upper bound of the approach of the teeth.
     approach_mm: f64,
-    distances: Distances,
+    /// Distance of positions away from the tip edges and at them.
+    apart: [Apart; 2],
 }
 
 impl<'a> BasePitch<'a> {
@@ -112,7 +89,7 @@ impl<'a> BasePitch<'a> {
                 path.pitch_point_mm,
             ),
             approach_mm: AMPLE_APPROACH * approach_mm,
-            distances: Distances::of(pair, positions),
+            apart: Apart::of(pair, positions),
         }
     }
 
@@ -141,26 +118,10 @@ impl<'a> BasePitch<'a> {
             .collect()
     }
 
-    /// Places of the path while a contact passes over the beginning of a linear relief.
-    fn kinks_mm(&self) -> Vec<Range<f64>> {
-        let path = &self.pair.path;
-        let of_gear = |gear: Gear| {
-            let linear = self.pair.begins_of_reliefs(gear).filter(|&(_, shape)| shape == ReliefShape::Linear);
-            linear.map(move |(rho_mm, _)| {
-                let place = path.rho_mm(gear, rho_mm);
-                // A half-width of flank, on which a contact moves by ρ/r_b of its way on the path.
-                let passes = self.half_width_mm * (path.involute[gear].base_radius_mm / rho_mm).abs();
-                place - passes..place + passes
-            })
-        };
-        Gear::BOTH.into_iter().flat_map(of_gear).collect()
-    }
-
     /// Stretches from the beginning to the end: short ones where a tip edge touches, and none across a place where load comes in at once.
     pub(super) fn stretches_mm(&self) -> Vec<(f64, f64)> {
         let path = &self.pair.path;
-        let (start, pitch, Distances { away, at_kinks, at_tip_edges }) =
-            (self.start_mm, path.base_pitch_mm, self.distances);
+        let (start, pitch, [away, at_tip_edges]) = (self.start_mm, path.base_pitch_mm, self.apart);
         let within = WITHIN_HALF_WIDTHS * self.half_width_mm;
         let outside = OUTSIDE_JUMP_HALF_WIDTHS * self.half_width_mm;
         let [before, after] = self.pair.tip_reach_mm(self.approach_mm);
@@ -168,24 +129,26 @@ impl<'a> BasePitch<'a> {
         let cuts = self.cuts_mm();
         let before = first.map_or(before, |jump| jump + outside);
         let after = last.map_or(after, |jump| jump + outside);
-        let edges = [path.start_mm - before..path.start_mm + within, path.end_mm - within..path.end_mm + after];
-        let edges = within_pitch(edges, start, pitch);
-        let kinks = if at_kinks == away { Vec::new() } else { within_pitch(self.kinks_mm(), start, pitch) };
-        let mut ends: Vec<f64> = edges.iter().chain(&kinks).flat_map(|zone| [zone.start, zone.end]).collect();
-        ends.push(pitch);
-        ends.sort_by(f64::total_cmp);
+        // Both stretches at tip edges, moved by base pitches to where they begin in this one, and cut at its end.
+        let zones = [(path.start_mm - before, path.start_mm + within), (path.end_mm - within, path.end_mm + after)];
+        let mut at_edges: Vec<(f64, f64)> = zones
+            .into_iter()
+            .flat_map(|(from, to)| {
+                let length = (to - from).min(pitch);
+                let from = (from - start).rem_euclid(pitch);
+                [(from, (from + length).min(pitch)), (0.0, from + length - pitch)]
+            })
+            .filter(|(from, to)| to > from)
+            .collect();
+        at_edges.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let ends = at_edges.into_iter().flat_map(|(from, to)| [(from, away), (to, at_tip_edges)]);
         let mut stretches = Vec::new();
         let mut reached = 0.0;
-        for to in ends {
-            if to - reached <= SAME_PLACE * pitch {
+        for (to, apart) in ends.chain([(pitch, away)]) {
+            let length = to - reached;
+            if length <= SAME_PLACE * pitch {
                 continue;
             }
-            let is_in = |zones: &[Range<f64>]| zones.iter().any(|zone| zone.contains(&f64::midpoint(reached, to)));
-            let apart = match (is_in(&edges), is_in(&kinks)) {
-                (true, _) => at_tip_edges,
-                (false, true) => at_kinks,
-                (false, false) => away,
-            };
             let apart = apart.mm(self.half_width_mm, self.even_mm);
             for (reached, to) in cut((reached, to), cuts, SAME_PLACE * pitch) {
                 let length = to - reached;
@@ -198,24 +161,6 @@ impl<'a> BasePitch<'a> {
         }
         stretches
     }
-}
-
-/// Zones of the path moved by base pitches to where they begin in the one from `start` on, cut at its end and where they overlap, in order.
-fn within_pitch(zones: impl IntoIterator<Item = Range<f64>>, start: f64, pitch: f64) -> Vec<Range<f64>> {
-    let parts = zones.into_iter().flat_map(|zone| {
-        let length = (zone.end - zone.start).min(pitch);
-        let from = (zone.start - start).rem_euclid(pitch);
-        [from..(from + length).min(pitch), 0.0..from + length - pitch]
-    });
-    let mut parts: Vec<Range<f64>> = parts.collect();
-    parts.sort_by(|a, b| a.start.total_cmp(&b.start));
-    let mut reached = 0.0;
-    for part in &mut parts {
-        part.start = part.start.max(reached);
-        reached = reached.max(part.end);
-    }
-    parts.retain(|part| part.end > part.start);
-    parts
 }
 
 /// Parts of a stretch between the cuts that lie within it, farther than `least` from its ends and from each other.
@@ -238,7 +183,6 @@ mod tests {
     use super::*;
     use gearwear_bodies::gear::{
         PerGear,
-        modification::Relief,
         ring_fillet::RingSpec,
         spec::{AxisParallelism, BasicRack, GearSpec, PairSpec},
     };
@@ -292,7 +236,7 @@ mod tests {
         let even_mm = length_mm / (positions - 1) as f64;
         let start_mm = path.start_mm.midpoint(path.end_mm) - 0.5 * path.base_pitch_mm;
         let half_width_mm = 8.0 / 399.0 * length_mm;
-        BasePitch { pair, start_mm, even_mm, half_width_mm, approach_mm, distances: Distances::of(pair, positions) }
+        BasePitch { pair, start_mm, even_mm, half_width_mm, approach_mm, apart: Apart::of(pair, positions) }
     }
 
     /// Distance of a place of the path to the nearest end of a stretch, base pitches apart from it.
@@ -314,9 +258,7 @@ mod tests {
             assert!((two[0].1 - two[1].0).abs() < 1e-12 * pitch, "{two:?}");
         }
         assert!((stretches[stretches.len() - 1].1 - base_pitch.start_mm - pitch).abs() < 1e-12 * pitch);
-        let Distances { away, at_kinks, .. } = base_pitch.distances;
-        let [away, at_kinks] = [away, at_kinks].map(|apart| apart.mm(base_pitch.half_width_mm, base_pitch.even_mm));
-        let longest = if base_pitch.kinks_mm().is_empty() { away } else { away.max(at_kinks) };
+        let longest = base_pitch.apart[0].mm(base_pitch.half_width_mm, base_pitch.even_mm);
         assert!(stretches.iter().all(|(from, to)| to > from && to - from < longest * (1.0 + 1e-9)));
     }
 
@@ -333,7 +275,7 @@ mod tests {
         let (at_edges, elsewhere): (Vec<_>, Vec<_>) =
             stretches.iter().partition(|(from, to)| is_at_edge(from.midpoint(*to)));
         let longest = |of: &[(f64, f64)]| of.iter().map(|(from, to)| to - from).fold(0.0, f64::max);
-        let apart = base_pitch.distances.at_tip_edges.mm(base_pitch.half_width_mm, base_pitch.even_mm);
+        let apart = base_pitch.apart[1].mm(base_pitch.half_width_mm, base_pitch.even_mm);
         assert!(longest(&at_edges) <= apart * (1.0 + 1e-9), "{} {apart}", longest(&at_edges));
         assert!(elsewhere.is_empty() || longest(&elsewhere) > 1.5 * apart, "{} {apart}", longest(&elsewhere));
     }
@@ -381,57 +323,11 @@ mod tests {
         let pair = pair(true);
         let [run, verification] = [400, 267].map(|positions| {
             let base_pitch = with_positions(&pair, positions, AMPLE_MM);
-            let Distances { away, at_tip_edges, .. } = base_pitch.distances;
-            [away, at_tip_edges].map(|apart| apart.mm(base_pitch.half_width_mm, base_pitch.even_mm))
+            base_pitch.apart.map(|apart| apart.mm(base_pitch.half_width_mm, base_pitch.even_mm))
         });
         for (run, verification) in run.into_iter().zip(verification) {
             assert!((verification / run - 1.5).abs() < 0.01, "{run} {verification}");
         }
-    }
-
-    /// While a contact passes over the beginning of a linear relief, and only then, stretches of a verification on two thirds of the positions are half as long
-    /// again as those of the run; a parabolic relief has no kink.
-    #[test]
-    fn ver_stretches_at_kinks_follow_the_number_of_positions() {
-        let relieved = |shape| {
-            let relief = Some(Relief { amount_mm: 0.02, length_mm: 3.0, shape });
-            let mut spec = pair(false).spec;
-            spec.gears.pinion.modification.tip_relief = relief;
-            GearPair::new(&spec).unwrap()
-        };
-        let middles = |pair: &GearPair, positions| {
-            let base_pitch = with_positions(pair, positions, 0.02);
-            let stretches = base_pitch.stretches_mm();
-            assert_tiled(&base_pitch, &stretches);
-            let zone = base_pitch.kinks_mm().first().cloned();
-            (stretches, zone)
-        };
-        let [linear, parabolic] = [ReliefShape::Linear, ReliefShape::Parabolic].map(relieved);
-        let pitch = linear.path.base_pitch_mm;
-        let ((run, zone), (verification, _)) = (middles(&linear, 400), middles(&linear, 267));
-        let zone = zone.unwrap();
-        // The edge of the tip relief of 3 mm, by its radius of curvature.
-        let kink_mm = linear.teeth.pinion.edge_rho_mm() - 3.0;
-        assert!((zone.start.midpoint(zone.end) - kink_mm).abs() < 1e-9, "{zone:?} {kink_mm}");
-        // At its ends the contact has moved by a half-width along the flank, by lengths s = ρ²/(2 r_b) of the involute, whose curvature changes by a few per cent.
-        let along_mm = |rho_mm: f64| rho_mm.powi(2) / (2.0 * linear.path.involute.pinion.base_radius_mm);
-        let half_width_mm = with_positions(&linear, 400, 0.02).half_width_mm;
-        for end_mm in [zone.start, zone.end] {
-            let moved_mm = (along_mm(end_mm) - along_mm(kink_mm)).abs();
-            assert!((moved_mm / half_width_mm - 1.0).abs() < 0.05, "{moved_mm} {half_width_mm}");
-        }
-        let longest_in = |stretches: &[(f64, f64)]| {
-            let in_zone = stretches
-                .iter()
-                .filter(|(from, to)| (from.midpoint(*to) - zone.start).rem_euclid(pitch) < zone.end - zone.start);
-            in_zone.map(|(from, to)| to - from).fold(0.0, f64::max)
-        };
-        let ratio = longest_in(&verification) / longest_in(&run);
-        // Each zone is divided evenly, into a dozen of the run's.
-        assert!((ratio / 1.5 - 1.0).abs() < 0.2, "{ratio}");
-        assert_eq!(middles(&parabolic, 267).1, None);
-        assert_eq!(middles(&parabolic, 267).0, middles(&pair(false), 267).0);
-        assert_eq!(run, middles(&pair(false), 400).0);
     }
 
     /// Parts tile the stretch; cuts at its ends, outside it and at the same place as another make no part.
