@@ -32,8 +32,8 @@ pub(super) const HARDLY_WORN: f64 = 0.001;
 pub(super) const ON_HARDLY_WORN_EDGES: f64 = 3.0;
 /// Greatest uncertainty of the wear of a tip edge.
 const MOST_OF_TIP_EDGE: f64 = 0.2;
-/// Uncertainty of the wear at a kink that an element cannot tell from one that is not worn: with elements four times as short, ridges 0.02 and 0.06 µm high are 13
-/// to 20 % higher, as pressure rises with the logarithm of the distance to the kink until wear has rounded it.
+/// Uncertainty of the first wear at a kink, to which pressure rises with the logarithm of the distance. With elements six times as short, ridges of two pairs that are 0.08, 0.3,
+/// 0.8 and 2 times as high as an element of the length e bridges, θ e, are 11 to 17, 7 to 12, 2 to 4 and 0.3 % higher: wear rounds the kink.
 const OF_KINK: f64 = 0.2;
 /// Uncertainty of profile and peak wear under severe wear: difference to elements twice as fine on nine of ten random pairs.
 const SEVERE: f64 = 0.02;
@@ -67,20 +67,20 @@ pub(super) fn of_hardly_worn_edge(pair: &GearPair, gear: Gear, bodies: &BodySett
     (OF_BULGE * bulge_mm / depth_mm).min(MOST_OF_TIP_EDGE)
 }
 
-/// Uncertainty by the length of the elements of the wear at a kink of `angle_rad` that is `depth_mm` deep: an element of the length e bridges it by some θ e.
+/// Uncertainty by the length of the elements of the wear at a kink of `angle_rad` that is `depth_mm` deep.
 pub(super) fn of_hardly_worn_kink(angle_rad: f64, element_mm: f64, depth_mm: f64) -> f64 {
-    OF_KINK * (angle_rad * element_mm / depth_mm).min(1.0)
+    OF_KINK * (1.0 - depth_mm / (angle_rad * element_mm)).max(0.0)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Of a kink of 0.01 rad, 0.02 mm elements bridge 0.2 µm: wear that is less deep is uncertain by a fifth, wear of 2 µm by a tenth of that.
+    /// An element of 0.02 mm bridges 0.2 µm of a kink of 0.01 rad: the first wear is uncertain by a fifth, that of 0.1 µm by half of that, and none that is deeper than 0.2 µm.
     #[test]
     fn ver_kinks_are_uncertain_until_wear_has_rounded_them() {
         let of_depth = |depth_um: f64| of_hardly_worn_kink(0.01, 0.02, 1e-3 * depth_um);
-        assert_eq!([0.01, 0.2].map(of_depth), [0.2; 2]);
-        assert!((of_depth(2.0) - 0.02).abs() < 1e-12);
+        assert!((of_depth(0.1) - 0.1).abs() < 1e-12);
+        assert_eq!([0.0, 0.2, 2.0].map(of_depth), [0.2, 0.0, 0.0]);
     }
 }
