@@ -46,13 +46,12 @@ impl RunModel<'_> {
 
     /// Zones of both flanks, for the half-width of contact under the greatest load of any phase.
     pub(super) fn zones(&self) -> PerGear<FlankZones> {
-        FlankZones::of_pair(self.pair, self.greatest_half_width_mm())
+        FlankZones::of_pair(self.pair, self.at_pitch.contact.loaded(self.greatest_load_n_per_mm()).half_width_mm)
     }
 
-    /// Half-width of contact at the pitch point under the greatest load of any phase, mm.
-    pub(super) fn greatest_half_width_mm(&self) -> f64 {
-        let greatest = self.phases.iter().map(|phase| phase.line_load_n_per_mm).fold(0.0, f64::max);
-        self.at_pitch.contact.loaded(greatest).half_width_mm
+    /// Greatest load of any phase.
+    pub(super) fn greatest_load_n_per_mm(&self) -> f64 {
+        self.phases.iter().map(|phase| phase.line_load_n_per_mm).fold(0.0, f64::max)
     }
 
     /// Duration of the run, pinion revolutions.

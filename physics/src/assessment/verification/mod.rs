@@ -48,9 +48,10 @@ use crate::simulation::wear_run::{Outcome, RunPhase, WearRun};
 use crate::stiffness::curve::PairCompliance;
 use crate::wear::stepping::adaptive::SHALLOW_MM;
 use gearwear_bodies::gear::{Gear, GearPair, PerGear, flank::FlankGrid, flank_zones::FlankZone};
-use gearwear_bodies::gear_fem::{condensed_pair::CondensedPair, model::ModelError};
+use gearwear_bodies::gear_fem::condensed_pair::{CondensedPair, hertz_half_width_mm};
+use gearwear_bodies::gear_fem::model::ModelError;
 use gearwear_bodies::gear_mesh::settings::{BodySettings, kink_element_mm};
-use gearwear_bodies::material::Material;
+use gearwear_bodies::material::{Material, contact_modulus_mpa};
 use gearwear_bodies::reference::flattening::Flattening;
 
 /// Positions from A to E of the check of other surfaces.
@@ -276,8 +277,7 @@ fn on_elements<'a>(
         }
         Some(elements) => elements.map(|elements| elements.condensed),
         None => {
-            let greatest = model.phases.iter().map(|phase| phase.line_load_n_per_mm).fold(0.0, f64::max);
-            condensed(scene, model.pair, greatest, &bodies, (&KeptElements::default(), observer))
+            condensed(scene, model.pair, model.greatest_load_n_per_mm(), &bodies, (&KeptElements::default(), observer))
         }
     };
     let elements = elements.map_err(|error| error.to_string())?;
@@ -414,9 +414,13 @@ impl<'a> RunComparison<'a> {
     fn beyond_at_kinks(&self, gear: Gear) -> f64 {
         let Some(bodies) = &self.reference.bodies else { return 0.0 };
         let (pair, grid) = (self.model.pair, &self.run.grid[gear]);
-        let element_mm = kink_element_mm(self.model.greatest_half_width_mm(), bodies.elements_per_half_width);
+        let modulus_mpa = contact_modulus_mpa(self.model.scene.material.map(Material::elastic));
+        let load_n_per_mm = self.model.greatest_load_n_per_mm();
         let [own, reference] = [&self.run.worn.wear_mm[gear], &self.reference.wear_mm[gear]];
         let at_kinks_mm = pair.kinks(gear).map(|kink| {
+            let position_mm = pair.path.rho_mm(gear, kink.rho_mm);
+            let half_width_mm = hertz_half_width_mm(pair, modulus_mpa, load_n_per_mm, position_mm);
+            let element_mm = kink_element_mm(half_width_mm, bodies.elements_per_half_width);
             let kink_mm = pair.path.involute[gear].arc_mm(kink.rho_mm);
             let beside = grid
                 .arc_mm
