@@ -64,7 +64,7 @@ fn ver_ridges_at_kinks_converge_with_positions() {
     assert!((coarse_um / fine_um - 1.0).abs() < 0.02, "{coarse_um} {fine_um}");
     let claimed = coarse.error.total.peak_wear;
     // On elements four times as short the ridge is 11 % higher; the wheel, whose greatest wear is elsewhere, is known better.
-    assert!(claimed.pinion.is_some_and(|claimed| (0.11..0.28).contains(&claimed)), "{claimed:?}");
+    assert!(claimed.pinion.is_some_and(|claimed| (0.11..0.25).contains(&claimed)), "{claimed:?}");
     assert!(claimed.wheel.is_some_and(|claimed| claimed < 0.03), "{claimed:?}");
 }
 
