@@ -48,24 +48,41 @@ wear.wheel.coefficient_mm3_per_Nm = 1e-6
 /// uncertain until wear has rounded the kink.
 #[test]
 fn ver_ridges_at_kinks_converge_with_positions() {
-    let ridge = |positions: usize, verify: bool| {
-        let scene =
-            LIGHTLY_WORN_RELIEF.replace("POSITIONS", &positions.to_string()).replace("VERIFY", &verify.to_string());
+    let ridge = |relief: &str, positions: usize, verify: bool| {
+        let scene = relief.replace("POSITIONS", &positions.to_string()).replace("VERIFY", &verify.to_string());
         let scene = LoadedScene::from_toml(&scene).expect("the scene of the test is sound");
         let done = gearwear::run(&scene, &Unwatched).expect("the run of the test has results");
         assert_eq!(done.failure, None);
         done.record.summary
     };
-    let [coarse, fine] = [ridge(100, true), ridge(1600, false)];
-    let at_kink_mm = coarse.pinion.peak_wear_radius_mm;
-    // ρ where the relief begins is 2.99 mm below that of the tip's edge; a flank point is up to 0.03 mm from it.
-    assert!((at_kink_mm - 62.65).abs() < 0.05, "{at_kink_mm}");
-    let [coarse_um, fine_um] = [&coarse, &fine].map(|summary| summary.pinion.peak_wear_um);
-    assert!((coarse_um / fine_um - 1.0).abs() < 0.02, "{coarse_um} {fine_um}");
+    let converged = |relief: &str, verify: bool| {
+        let [coarse, fine] = [ridge(relief, 100, verify), ridge(relief, 1600, false)];
+        let [coarse_um, fine_um] = [&coarse, &fine].map(|summary| summary.pinion.peak_wear_um);
+        assert!((coarse_um / fine_um - 1.0).abs() < 0.02, "{coarse_um} {fine_um}");
+        coarse
+    };
+    // The flank of a rounded tip is the master, that of a sharp one the slave.
+    let sharp = ["tip_rounding_mm = 0.1555, ", "tip_rounding_mm = 0.1668, "]
+        .iter()
+        .fold(LIGHTLY_WORN_RELIEF.to_owned(), |scene, rounding| scene.replace(rounding, ""));
+    converged(&sharp, false);
+    let coarse = converged(LIGHTLY_WORN_RELIEF, true);
+    // ρ where the relief begins is 2.99 mm below that of the tip's edge, ρ² = r² − r_b², r_b = ½ m z cos α; a flank point is up to 0.03 mm from it.
+    let base_radius_mm = 0.5 * 4.0 * 29.0 * 20f64.to_radians().cos();
+    let tip_radius_mm = 0.5 * coarse.geometry.gears.pinion.tip_diameter_mm;
+    let edge_rho_mm = (tip_radius_mm.powi(2) - base_radius_mm.powi(2)).sqrt();
+    let at_kink_mm = (edge_rho_mm - 2.99).hypot(base_radius_mm);
+    let found_mm = coarse.pinion.peak_wear_radius_mm;
+    assert!((found_mm - at_kink_mm).abs() < 0.05, "{found_mm} {at_kink_mm}");
     let claimed = coarse.error.total.peak_wear;
     // On elements four times as short the ridge is 11 % higher; the wheel, whose greatest wear is elsewhere, is known better.
     assert!(claimed.pinion.is_some_and(|claimed| (0.11..0.25).contains(&claimed)), "{claimed:?}");
     assert!(claimed.wheel.is_some_and(|claimed| claimed < 0.03), "{claimed:?}");
+    let how = &coarse.error.total.how;
+    assert!(
+        how.contains("where a linear relief of the pinion begins") && !how.contains("of the wheel begins"),
+        "{how}"
+    );
 }
 
 const LIGHTLY_WORN_RELIEF: &str = r#"

@@ -5,7 +5,7 @@ use gearwear_bodies::gear::{
     flank::{FlankGrid, PointSpacing},
     flank_zones::FlankZones,
     modification::{Modification, Relief, ReliefShape},
-    removed_material::modifications_mm,
+    removed_material::{modifications_mm, without_tip_edge_mm},
     slices::Slices,
     spec::PairSpec,
 };
@@ -30,6 +30,35 @@ fn rack_of_10000_teeth() -> GearPair {
 
 fn grids(pair: &GearPair, gear: Gear, count: usize) -> [FlankGrid; 2] {
     [PointSpacing::Even, PointSpacing::Graded].map(|spacing| FlankGrid::new(pair, gear, count, spacing))
+}
+
+/// The angle of a kink is the slope of what is removed along the flank on one side, which is none on the other, to the first order in the distance; a parabolic relief has none.
+#[test]
+fn ver_kinks_are_where_the_removed_material_turns() {
+    let relieved = |shape| {
+        let gears = fzg_c().gears.map(|mut gear| {
+            let relief = |amount_mm, length_mm| Some(Relief { amount_mm, length_mm, shape });
+            let (tip_relief, root_relief) = (relief(0.02, 2.0), relief(0.012, 1.5));
+            gear.modification = Modification { tip_relief, root_relief, ..gear.modification };
+            gear
+        });
+        pair(&PairSpec { gears, ..fzg_c() })
+    };
+    let [linear, parabolic] = [ReliefShape::Linear, ReliefShape::Parabolic].map(relieved);
+    for gear in Gear::BOTH {
+        assert_eq!((linear.kinks(gear).count(), parabolic.kinks(gear).count()), (2, 0));
+        for kink in linear.kinks(gear) {
+            let involute = linear.path.involute[gear];
+            let slopes = [-1e-3, 1e-3].map(|beside_mm| {
+                let removed_mm = without_tip_edge_mm(&linear, gear, 0.0, kink.rho_mm + beside_mm);
+                let along_mm = involute.arc_mm(kink.rho_mm + beside_mm) - involute.arc_mm(kink.rho_mm);
+                (removed_mm / along_mm).abs()
+            });
+            assert!(slopes.into_iter().fold(f64::INFINITY, f64::min) < 1e-12, "{slopes:?}");
+            let found = slopes.into_iter().fold(0.0, f64::max);
+            assert!((kink.angle_rad / found - 1.0).abs() < 1e-3, "{kink:?} {found}");
+        }
+    }
 }
 
 /// Both spacings lead from the base circle to the tip circle with as many points, rising, and ∫ ds is the flank's length.

@@ -10,6 +10,7 @@
 //! so that Σ W_k h_k grows by V, whatever the stretch. The mean depth on the stretch is Σ m_k h_k.
 
 use super::flank_surface::MeshedFlank;
+use crate::gear::modification::Kink;
 use crate::reference::linear_means::{add_means, value_at};
 
 /// Fraction of an edge that the multiplier of a corner loads: ∫ψ of a quadratic edge is 1/6, 4/6 and 1/6 of its length.
@@ -29,6 +30,8 @@ pub struct FlankNodes {
     pub place: Vec<usize>,
     /// Stretch that the multiplier of each node loads, mm.
     pub loaded_mm: Vec<[f64; 2]>,
+    /// Distance of the flank's kinks from the root end, mm.
+    pub kinks_mm: Vec<f64>,
 }
 
 /// Consecutive nodes and the weight of each.
@@ -41,8 +44,8 @@ pub struct Weights<'a> {
 }
 
 impl FlankNodes {
-    /// Nodes of `flank`.
-    pub fn new(flank: &MeshedFlank) -> Self {
+    /// Nodes of `flank` with these kinks.
+    pub fn new(flank: &MeshedFlank, kinks: impl Iterator<Item = Kink>) -> Self {
         let count = flank.from_tip_mm.len();
         let mut order: Vec<usize> = (0..count).collect();
         order.sort_by(|&a, &b| flank.from_tip_mm[b].total_cmp(&flank.from_tip_mm[a]));
@@ -69,7 +72,8 @@ impl FlankNodes {
                 loaded_mm[place[middle]] = [along_mm[ends[0]] + corner, along_mm[ends[1]] - corner];
             }
         }
-        Self { along_mm, share_mm, place, loaded_mm }
+        let kinks_mm = kinks.map(|kink| length_mm - flank.distance_to_tip_mm(kink.rho_mm)).collect();
+        Self { along_mm, share_mm, place, loaded_mm, kinks_mm }
     }
 
     /// Number of nodes.

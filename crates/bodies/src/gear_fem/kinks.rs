@@ -14,46 +14,28 @@
 
 use crate::gear::{Gear, PerGear};
 
-use super::condensed_pair::CondensedPair;
-use super::flank_nodes::FlankNodes;
-
-/// Places of the kinks on both flanks, from the root end along the profile, mm.
-pub(super) struct Kinks(PerGear<Vec<f64>>);
-
-impl Kinks {
-    /// Beginnings of the linear reliefs of both gears.
-    pub(super) fn of(model: &CondensedPair<'_>, nodes: PerGear<&FlankNodes>) -> Self {
-        Self(PerGear::from_fn(|gear| {
-            let length_mm = nodes[gear].along_mm.last().copied().unwrap_or_default();
-            let kinks = model.pair.kinks(gear);
-            kinks.map(|kink| length_mm - model.flanks[gear].distance_to_tip_mm(kink.rho_mm)).collect()
-        }))
+/// Movement of the pressure along both flanks at the places `at_mm`, where the contact moves by `contact_mm` to the beginning and to the end of a
+/// stretch, each towards the gear's tip, and is `half_width_mm` wide to either side. A contact that stands on an edge keeps its own. Places and kinks
+/// are counted from the root ends along the profiles.
+pub(super) fn pressure_moves_mm(
+    contact_mm: PerGear<[f64; 2]>,
+    kinks_mm: PerGear<&[f64]>,
+    at_mm: PerGear<f64>,
+    half_width_mm: f64,
+) -> PerGear<[f64; 2]> {
+    let from_kinks = Gear::BOTH.into_iter().flat_map(|gear| {
+        kinks_mm[gear].iter().map(move |kink_mm| (gear, (at_mm[gear] - kink_mm).abs() / half_width_mm))
+    });
+    let nearest = from_kinks.min_by(|a, b| a.1.total_cmp(&b.1));
+    let stands = Gear::BOTH.into_iter().any(|gear| contact_mm[gear] == [0.0, 0.0]);
+    let Some((gear, part)) = nearest.filter(|(_, part)| *part < 1.0 && !stands) else { return contact_mm };
+    let held_mm = contact_mm[gear].map(|moved_mm| (1.0 - part) * moved_mm);
+    let mut moves_mm = contact_mm;
+    for (end, held_mm) in held_mm.into_iter().enumerate() {
+        moves_mm[gear][end] -= held_mm;
+        moves_mm[gear.mate()][end] += held_mm;
     }
-
-    /// Movement of the pressure along both flanks at the places `at_mm`, where the contact moves by `contact_mm` to the beginning and to the end of a
-    /// stretch, each towards the gear's tip, and is `half_width_mm` wide to either side. A contact that stands on an edge keeps its own.
-    pub(super) fn moves_mm(
-        &self,
-        contact_mm: PerGear<[f64; 2]>,
-        at_mm: PerGear<f64>,
-        half_width_mm: f64,
-    ) -> PerGear<[f64; 2]> {
-        let from_kinks = Gear::BOTH.into_iter().flat_map(|gear| {
-            self.0[gear].iter().map(move |kink_mm| (gear, (at_mm[gear] - kink_mm).abs() / half_width_mm))
-        });
-        let nearest = from_kinks.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, distance)| *distance < 1.0);
-        let mut moves_mm = contact_mm;
-        if let Some((gear, part)) = nearest
-            && Gear::BOTH.into_iter().all(|gear| contact_mm[gear] != [0.0, 0.0])
-        {
-            for (end, contact_mm) in contact_mm[gear].into_iter().enumerate() {
-                let held_mm = (1.0 - part) * contact_mm;
-                moves_mm[gear][end] -= held_mm;
-                moves_mm[gear.mate()][end] += held_mm;
-            }
-        }
-        moves_mm
-    }
+    moves_mm
 }
 
 #[cfg(test)]
@@ -65,8 +47,8 @@ mod tests {
     #[test]
     fn ver_the_pressure_stays_on_a_kink() {
         let contact_mm = PerGear { pinion: [-0.2, 0.2], wheel: [0.3, -0.3] };
-        let kinks = Kinks(PerGear { pinion: vec![4.0], wheel: vec![7.0] });
-        let at = |pinion: f64, wheel: f64| kinks.moves_mm(contact_mm, PerGear { pinion, wheel }, 0.5);
+        let kinks_mm = PerGear { pinion: &[4.0][..], wheel: &[7.0][..] };
+        let at = |pinion: f64, wheel: f64| pressure_moves_mm(contact_mm, kinks_mm, PerGear { pinion, wheel }, 0.5);
         let assert_moves = |found: PerGear<[f64; 2]>, ends: [f64; 2]| {
             for (gear, end) in [(Gear::Pinion, ends[0]), (Gear::Wheel, ends[1])] {
                 assert!(
@@ -81,6 +63,6 @@ mod tests {
         assert_moves(at(4.1, 7.05), [-0.07, -0.03]);
         assert_moves(at(4.5, 6.5), [0.2, -0.3]);
         let on_edge = PerGear { wheel: [0.0, 0.0], ..contact_mm };
-        assert_eq!(kinks.moves_mm(on_edge, PerGear { pinion: 4.0, wheel: 5.0 }, 0.5), on_edge);
+        assert_eq!(pressure_moves_mm(on_edge, kinks_mm, PerGear { pinion: 4.0, wheel: 5.0 }, 0.5), on_edge);
     }
 }

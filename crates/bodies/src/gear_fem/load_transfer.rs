@@ -2,8 +2,8 @@
 //!
 //! Each multiplier represents a stretch of the slave's flank, as long as its weight, and the stretch of the master that faces it along the slave's
 //! normals. While the theoretical contact point passes the stretch of path that a position represents, the contact moves
-//! along both flanks, and both stretches with it, but where a kink of a flank holds the pressure ([`super::kinks`]). The wear of the multiplier is spread evenly over them, and its gap
-//! is opened by the mean depth on them:
+//! along both flanks, and both stretches with it, but where a kink of a flank holds the pressure ([`super::kinks`]). The wear of the multiplier
+//! is spread evenly over them, and its gap is opened by the mean depth on them:
 //!
 //! ```text
 //! h_k ← h_k + M_ik d_i w_i / W_k          g_i ← g_i + Σ_k M_ik h_k / (n_k · n_i)
@@ -53,7 +53,7 @@ use pulp::Arch;
 use super::condensed_pair::CondensedPair;
 use super::facing_teeth::FacingTeeth;
 use super::flank_nodes::{FlankNodes, Weights};
-use super::kinks::Kinks;
+use super::kinks::pressure_moves_mm;
 use super::placement::{axis_mm, in_place_mm, tooth_angle_rad};
 use super::prepared::PreparedPosition;
 use super::tilted::Worn;
@@ -222,7 +222,7 @@ struct Passing {
 impl CondensedPair<'_> {
     /// Nodes of both working flanks.
     pub fn flank_nodes(&self) -> PerGear<FlankNodes> {
-        self.flanks.as_ref().map(FlankNodes::new)
+        PerGear::from_fn(|gear| FlankNodes::new(&self.flanks[gear], self.pair.kinks(gear)))
     }
 
     /// Radius of the nominal flank point of each local node of a gear's flank, mm.
@@ -242,8 +242,7 @@ impl CondensedPair<'_> {
         worn: Option<Worn<'_>>,
     ) -> Vec<LoadTransfer> {
         let passing = Passing { position_mm: prepared.position_mm, stretch_mm, turned_mm };
-        let kinks = Kinks::of(self, nodes);
-        prepared.facings.iter().map(|facing| self.load_transfer(passing, facing, nodes, &kinks, worn)).collect()
+        prepared.facings.iter().map(|facing| self.load_transfer(passing, facing, nodes, worn)).collect()
     }
 
     fn load_transfer(
@@ -251,7 +250,6 @@ impl CondensedPair<'_> {
         passing: Passing,
         facing: &FacingTeeth,
         nodes: PerGear<&FlankNodes>,
-        kinks: &Kinks,
         worn: Option<Worn<'_>>,
     ) -> LoadTransfer {
         let Passing { position_mm, stretch_mm, turned_mm } = passing;
@@ -268,6 +266,7 @@ impl CondensedPair<'_> {
         };
         let (moved, off_mm) = self.off_mm(passing, facing);
         let contact_mm = PerGear::from_fn(|gear| self.contact_moves_mm(position_mm, stretch_mm, facing.pair, gear));
+        let kinks_mm = nodes.map(|nodes| nodes.kinks_mm.as_slice());
         let mut sums = PerGear::from_fn(|gear| vec![0.0; nodes[gear].len()]);
         let mut means: PerGear<StretchMeans> = PerGear::default();
         let (mut sliding_mm, mut along_mm) = (Vec::new(), Vec::new());
@@ -280,7 +279,7 @@ impl CondensedPair<'_> {
             let faced = faced_mm(own, &feet, place, loaded);
             let mut at_mm = PerGear::from_fn(|_| loaded[0].midpoint(loaded[1]));
             at_mm[slave.mate()] = faced[0].midpoint(faced[1]);
-            let mut moves = kinks.moves_mm(contact_mm, at_mm, facing.half_width_mm);
+            let mut moves = pressure_moves_mm(contact_mm, kinks_mm, at_mm, facing.half_width_mm);
             moves[moved].iter_mut().for_each(|end| *end += off_mm);
             let reached = spread(own, loaded, moves[slave], &mut sums[slave]);
             means[slave].push(reached, &mut sums[slave], 1.0);

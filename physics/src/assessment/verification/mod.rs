@@ -352,7 +352,7 @@ impl<'a> RunComparison<'a> {
 
     /// Errors of the run.
     fn verified(&self) -> Verified {
-        let ReferenceRun { outcome, uncertainty, extrapolation, wear_mm, .. } = self.reference;
+        let ReferenceRun { outcome, uncertainty, wear_mm, .. } = self.reference;
         let peak = Gear::BOTH.into_iter().filter_map(|gear| self.peak_difference(gear)).reduce(f64::max);
         let [surface_model, discretisation] = match self.model.scene.contact.surface {
             SurfaceKind::Fem => [None, peak.filter(|_| !self.model.wears_severely(outcome))],
@@ -363,7 +363,7 @@ impl<'a> RunComparison<'a> {
         let total = TotalError {
             profile: per_gear(|gear| self.profile(gear)),
             peak_wear: per_gear(|gear| {
-                let off = extrapolation.wear * self.peak_difference(gear)?;
+                let off = self.extrapolated_peak_difference(gear)?;
                 Some(off.max(self.beyond_at_kinks(gear)) + uncertainty.peak)
             }),
             tip_edge_wear: per_gear(|gear| self.tip_edge_wear(gear)),
@@ -376,7 +376,7 @@ impl<'a> RunComparison<'a> {
                 new: flank_pressure([&self.run.new, &outcome.new]).map(|off| off + new),
                 worn: flank_pressure([&self.run.worn, &outcome.worn]).map(|off| off + worn),
             },
-            how: [self.how(), without_wear(&self.wear)].concat(),
+            how: [self.how(), self.at_kinks(), without_wear(&self.wear)].concat(),
         };
         Verified { total, surface_model, discretisation, wear_mm: Some(wear_mm.clone()), warning: None }
     }
@@ -408,6 +408,26 @@ impl<'a> RunComparison<'a> {
     /// Relative difference of the greatest wear of the active profile.
     fn peak_difference(&self, gear: Gear) -> Option<f64> {
         relative(self.wear[gear].peak_mm, self.reference_wear[gear].peak_mm)
+    }
+
+    /// The same, as far as the reference run tells of the converged answer.
+    fn extrapolated_peak_difference(&self, gear: Gear) -> Option<f64> {
+        Some(self.reference.extrapolation.wear * self.peak_difference(gear)?)
+    }
+
+    /// Sentence for each gear whose wear at a kink makes the error of its greatest wear.
+    fn at_kinks(&self) -> String {
+        let of_kinks = Gear::BOTH.into_iter().filter_map(|gear| {
+            let (off, beyond) = (self.extrapolated_peak_difference(gear)?, self.beyond_at_kinks(gear));
+            (beyond > off).then(|| {
+                format!(
+                    "; where a linear relief of the {} begins, its wear may exceed the maximum by {:.1} %, as light wear has not rounded the kink",
+                    gear.name(),
+                    100.0 * beyond
+                )
+            })
+        });
+        of_kinks.collect()
     }
 
     /// Part of the greatest wear of a gear's active profile by which that at a kink may exceed it.
