@@ -274,7 +274,7 @@ fn table(record: &SweepRecord, out: &Path) -> String {
     let file = out.join(if record.shard.is_none() { output_files::PAGE } else { "sweep.csv" });
     text.push_str(&format!("\n{}: {}\n", if record.shard.is_none() { "report" } else { "table" }, file.display()));
     if cfg!(not(feature = "parquet")) && record.shard.is_none() {
-        text.push_str("no sweep.parquet: this program was built without --features parquet\n");
+        text.push_str("no sweep.parquet: this program was built with --no-default-features\n");
     }
     text
 }

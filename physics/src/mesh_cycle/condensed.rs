@@ -51,8 +51,6 @@ struct CondensedPosition {
     turned_mm: f64,
     /// Number of the windows of `prepared` for which they were found.
     windows: usize,
-    /// Tilt of the worn flanks for which they were found; none for new flanks.
-    about_rad: Option<PerGear<Vec<f64>>>,
     found: Option<ContactEquilibrium>,
     /// Whether it keeps its wear over the stages of a step.
     keeps_wear: bool,
@@ -227,8 +225,9 @@ impl MeshCycle for CondensedCycle<'_> {
         self.groups.par_iter_mut().flat_map(|group| &mut group.loaded_positions).for_each(|loaded| {
             model.reset(&mut loaded.prepared);
             loaded.found = None;
+            let is_about_worn = loaded.transfers.iter().any(LoadTransfer::is_about_worn);
             let is_moved = loaded.turned_mm != loaded.prepared.unworn_transmission_error_mm();
-            if loaded.windows != loaded.prepared.windows() || loaded.about_rad.is_some() || is_moved {
+            if loaded.windows != loaded.prepared.windows() || is_about_worn || is_moved {
                 loaded.observe(model, nodes);
             }
         });
@@ -384,7 +383,6 @@ impl CondensedPosition {
             transfers: Vec::new(),
             turned_mm: 0.0,
             windows: 0,
-            about_rad: None,
             found: None,
             keeps_wear: false,
         };
@@ -395,8 +393,8 @@ impl CondensedPosition {
     /// Finds the load transfers to the nodes of new flanks, in the present windows.
     fn observe(&mut self, model: &CondensedPair<'_>, nodes: PerGear<&FlankNodes>) {
         self.turned_mm = self.prepared.unworn_transmission_error_mm();
-        self.transfers = model.load_transfers(&self.prepared, self.stretch_mm, self.turned_mm, nodes, None);
-        (self.windows, self.about_rad) = (self.prepared.windows(), None);
+        self.transfers = model.load_transfers(&self.prepared, self.stretch_mm, self.turned_mm, nodes);
+        self.windows = self.prepared.windows();
     }
 
     /// Greatest pressure on any multiplier, MPa.
@@ -453,11 +451,11 @@ impl CondensedPosition {
     /// Finds the contact on the present flanks, in the directions that the position was made for.
     fn solve_linearised(&mut self, step: &WearEvaluation<'_>) -> Result<Work, EquilibriumError> {
         let position_mm = self.prepared.position_mm;
-        let Self { prepared, stretch_mm, transfers, turned_mm, windows, about_rad, .. } = self;
+        let Self { prepared, stretch_mm, transfers, turned_mm, windows, .. } = self;
         let opening = &mut |prepared: &PreparedPosition, gap_mm: &mut [f64]| {
             if *windows != prepared.windows() {
-                *transfers = step.model.load_transfers(prepared, *stretch_mm, *turned_mm, step.nodes, None);
-                (*windows, *about_rad) = (prepared.windows(), None);
+                *transfers = step.model.load_transfers(prepared, *stretch_mm, *turned_mm, step.nodes);
+                *windows = prepared.windows();
             }
             for contact in transfers.iter() {
                 contact.open_gaps(step.worn.depth_mm, |row| prepared.tilt_rad(row), gap_mm);
@@ -482,33 +480,24 @@ impl CondensedPosition {
         if turns {
             step.model.tilt(&mut self.prepared, tilt_rad);
         }
-        let reshapes = self.has_reshaped(step, found);
         let turned_mm = found.rigid[0];
         let moves = (turned_mm - self.turned_mm).abs() > LEAST_TURN * turned_mm.abs();
-        if reshapes {
-            self.about_rad = Some(step.worn.tilt_rad.clone());
-        }
-        if reshapes || moves {
-            let worn = self.about_rad.is_some().then_some(step.worn);
-            let (prepared, stretch_mm) = (&self.prepared, self.stretch_mm);
-            self.transfers = step.model.load_transfers(prepared, stretch_mm, turned_mm, step.nodes, worn);
+        if moves {
             self.turned_mm = turned_mm;
         }
-        turns || reshapes || moves
-    }
-
-    /// Whether a tip edge under load has another shape.
-    fn has_reshaped(&self, step: &WearEvaluation<'_>, found: &ContactEquilibrium) -> bool {
-        self.transfers.iter().any(|contact| {
-            let mate = contact.slave.mate();
+        let mut reshapes = false;
+        for contact in &mut self.transfers {
             let force = &found.force[contact.first_row..contact.first_row + contact.len()];
-            let [turn, tilt] = contact.mean_on(mate, force, |place| {
-                let now = step.worn.tilt_rad[mate][place];
-                let known = self.about_rad.as_ref().map_or(0.0, |about| about[mate][place]);
-                [(now - known).abs(), now.abs()]
-            });
-            turn > LEAST_TILT.0.max(LEAST_TILT.1 * tilt)
-        })
+            let [turn, tilt] = contact.mates_turn_and_tilt_rad(force, step.worn.tilt_rad);
+            let is_reshaped = turn > LEAST_TILT.0.max(LEAST_TILT.1 * tilt);
+            reshapes |= is_reshaped;
+            if is_reshaped || moves {
+                let worn = (is_reshaped || contact.is_about_worn()).then_some(step.worn);
+                let (prepared, stretch_mm, turned_mm) = (&self.prepared, self.stretch_mm, self.turned_mm);
+                *contact = step.model.load_transfer_anew(contact, prepared, stretch_mm, turned_mm, step.nodes, worn);
+            }
+        }
+        turns || reshapes || moves
     }
 
     /// Adds the wear of the nodes of both flanks.

@@ -4,7 +4,7 @@
 //! the next in bursts. The mean of their magnitudes over half the length over which pressures are averaged is not.
 
 use crate::wear::stepping::greater_or_nan;
-use gearwear_bodies::gear::{PerGear, flank_zones::FlankZones};
+use gearwear_bodies::gear::{Gear, PerGear, flank_zones::FlankZones};
 
 /// Length of the means, in that over which pressures are averaged. With the whole of it the wear of tip edges is less exact than a verification needs
 /// (case `verified-lean`).
@@ -44,6 +44,19 @@ impl LocalMeans {
             slices.fold(0.0, greater_or_nan)
         };
         greater_or_nan(of(&self.flanks.pinion, rows.pinion), of(&self.flanks.wheel, rows.wheel))
+    }
+
+    /// Mean of depths at the places of a gear's flank, slice after slice, about one of them, mm.
+    pub(crate) fn about_mm(&self, gear: Gear, place: usize, row: &[f64]) -> f64 {
+        let FlankPlaces { along_mm, share_mm, length_mm } = &self.flanks[gear];
+        let (slice, here) = (place / along_mm.len(), place % along_mm.len());
+        let row = &row[slice * along_mm.len()..][..along_mm.len()];
+        let is_near = |at_mm: f64| (at_mm - along_mm[here]).abs() <= 0.5 * length_mm;
+        let near = along_mm.iter().zip(share_mm.iter().zip(row)).filter(|(at_mm, _)| is_near(**at_mm));
+        let (sum_mm2, long_mm) = near.fold((0.0, 0.0), |(sum_mm2, long_mm), (_, (share_mm, depth_mm))| {
+            (sum_mm2 + share_mm * depth_mm, long_mm + share_mm)
+        });
+        sum_mm2 / long_mm
     }
 }
 
@@ -88,6 +101,13 @@ mod tests {
         assert!((close - 3.0 / 5.0).abs() < 1e-12, "{close}");
         assert_eq!(evenly(0.03, 0.041).greatest_mm(&row), 3.0);
         assert!((evenly(0.01, 0.041).greatest_mm(&[2.0; 21]) - 2.0).abs() < 1e-12);
+        let waves: Vec<f64> = (0..42).map(|k| f64::from(k / 21) + if k % 2 == 0 { 1.0 } else { -1.0 }).collect();
+        for (place, mean) in [(7, -0.2), (28, 1.2)] {
+            let flanks = PerGear { pinion: evenly(0.01, 0.041), wheel: evenly(0.03, 0.041) };
+            let means = LocalMeans { flanks };
+            assert!((means.about_mm(Gear::Pinion, place, &waves) - mean).abs() < 1e-12, "{place}");
+            assert_eq!(means.about_mm(Gear::Wheel, place, &waves), waves[place]);
+        }
         row[20] = f64::NAN;
         assert!(evenly(0.03, 0.041).greatest_mm(&row).is_nan());
     }

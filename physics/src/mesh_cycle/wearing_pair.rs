@@ -121,6 +121,9 @@ pub(crate) trait WearingPair {
     /// Greatest mean magnitude along the flanks ([`LocalMeans`]) of a row of depths at the places, mm.
     fn greatest_mean_mm(&self, row: PerGear<&[f64]>) -> f64;
 
+    /// Mean about one place of a gear, over the same length, of a row of depths at its places, mm.
+    fn mean_about_mm(&self, gear: Gear, place: usize, row: &[f64]) -> f64;
+
     /// Wear of each place at which the model keeps it, mm: as many places as in [`Self::set_wear_mm`] and [`Self::depth_mm`].
     fn wear_mm(&self) -> PerGear<Vec<f64>>;
 
@@ -236,6 +239,10 @@ impl WearingPair for OnFlankPoints<'_> {
 
     fn greatest_mean_mm(&self, row: PerGear<&[f64]>) -> f64 {
         self.means.greatest_mm(row)
+    }
+
+    fn mean_about_mm(&self, gear: Gear, place: usize, row: &[f64]) -> f64 {
+        self.means.about_mm(gear, place, row)
     }
 
     fn wear_at_points_mm(&self) -> PerGear<Vec<f64>> {
@@ -366,6 +373,10 @@ impl WearingPair for OnFlankNodes<'_> {
 
     fn greatest_mean_mm(&self, row: PerGear<&[f64]>) -> f64 {
         self.means.greatest_mm(row)
+    }
+
+    fn mean_about_mm(&self, gear: Gear, place: usize, row: &[f64]) -> f64 {
+        self.means.about_mm(gear, place, row)
     }
 
     fn wear_at_points_mm(&self) -> PerGear<Vec<f64>> {

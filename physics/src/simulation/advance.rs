@@ -94,14 +94,17 @@ impl Stepper {
         }
     }
 
-    /// Estimated error of adaptive steps in each gear's wear where that is greatest, mm.
-    pub(crate) fn error_mm(&self) -> Option<PerGear<f64>> {
+    /// Estimated error of adaptive steps in each gear's wear where that is greatest, mm: its mean along the flank about that place
+    /// ([`WearingPair::mean_about_mm`]), as later steps wear down what differs from place to place.
+    pub(crate) fn error_mm(&self, pair: &dyn WearingPair) -> Option<PerGear<f64>> {
         let steps = self.adaptive.as_ref()?;
         let places = steps.wear_mm.pinion.len();
         let (wear, error) = (steps.state.split_at(places), steps.integrator.accumulated_error().split_at(places));
-        let [pinion, wheel] = [(wear.0, error.0), (wear.1, error.1)].map(|(wear, error)| {
-            wear.iter().zip(error).max_by(|a, b| a.0.total_cmp(b.0)).map_or(0.0, |(_, error)| error.abs())
-        });
+        let [pinion, wheel] =
+            [(Gear::Pinion, wear.0, error.0), (Gear::Wheel, wear.1, error.1)].map(|(gear, wear, error)| {
+                let greatest = wear.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
+                greatest.map_or(0.0, |(place, _)| pair.mean_about_mm(gear, place, error).abs())
+            });
         Some(PerGear { pinion, wheel })
     }
 

@@ -224,11 +224,13 @@ impl WearRun<'_> {
             }
             Some(_) => return Err(SimulationError::OtherRun),
         };
-        let mut failure = None;
+        let (mut failure, mut step_error_mm) = (None, None);
         while run_state.phase < self.phases.len() {
             let phase = &self.phases[run_state.phase];
             let mut pair = self.wearing_pair(phase, &flanks)?;
-            match self.through_phase(&mut run_state, &mut *pair, &flanks, Attendants { keeper, progress })? {
+            let end = self.through_phase(&mut run_state, &mut *pair, &flanks, Attendants { keeper, progress })?;
+            step_error_mm = run_state.stepper.error_mm(&*pair);
+            match end {
                 PhaseEnd::Reached => run_state.wear_mm = Some(pair.wear_mm()),
                 PhaseEnd::Stopped => break,
                 PhaseEnd::Failed(error) => {
@@ -245,7 +247,7 @@ impl WearRun<'_> {
             None if self.due(run_state.passed).is_none() => StopReason::Completed,
             None => StopReason::Interrupted,
         };
-        let (steps, step_error_mm) = (run_state.stepper.counts(), run_state.stepper.error_mm());
+        let steps = run_state.stepper.counts();
         let worn_places_mm = run_state.wear_of_last_state_mm.take().filter(|_| run_state.states.len() > 1);
         let [new, worn] = self.new_and_worn(&mut run_state, worn_places_mm.as_ref(), &flanks)?;
         run_state.states.remove(0);

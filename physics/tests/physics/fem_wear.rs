@@ -80,7 +80,7 @@ fn ver_an_even_depth_wears_all_nodes_evenly() {
     let nodes = model.flank_nodes();
     let position_mm = pair.path.start_mm + 0.1 * (pair.path.end_mm - pair.path.start_mm);
     let prepared = model.prepare(position_mm, line_load(&pair));
-    let transfers = model.load_transfers(&prepared, (position_mm, position_mm), 0.0, nodes.as_ref(), None);
+    let transfers = model.load_transfers(&prepared, (position_mm, position_mm), 0.0, nodes.as_ref());
     let contact = transfers.iter().find(|contact| contact.pair == 0).expect("the pair faces itself");
     let mut depth_mm = vec![0.0; nodes[contact.slave].len()];
     contact.wear_nodes(contact.slave, &nodes[contact.slave], &vec![1.0; contact.len()], &mut depth_mm);

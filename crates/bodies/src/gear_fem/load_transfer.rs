@@ -82,8 +82,12 @@ pub struct LoadTransfer {
     pub along_mm: Vec<f64>,
     /// Matrix M for each gear.
     pub means: PerGear<StretchMeans>,
+    /// Gap of each row on new flanks, along the slave's normal, mm; none where the mate does not face it.
+    unworn_gap_mm: Vec<Option<f64>>,
     /// Difference of each row's gap from the linear rule at the wear about which it is linearised, mm.
     beyond_rule_mm: Vec<f64>,
+    /// Mean tilt of the mate's flank at each row, about which it is linearised, rad; none for new flanks.
+    about_rad: Option<Vec<f64>>,
     /// Offset t of the slave's material under load, towards its tip, mm.
     slave_off_mm: f64,
 }
@@ -114,11 +118,17 @@ impl StretchMeans {
         Weights { first: self.first[i], weights: &self.weights[begin..self.ends[i]] }
     }
 
+    /// Mean of nodal values of row `i`.
+    #[inline(always)]
+    fn mean(&self, i: usize, at_nodes: &[f64]) -> f64 {
+        let Weights { first, weights } = self.row(i);
+        weighted_sum(weights, &at_nodes[first..])
+    }
+
     /// Opening of the gap of row `i` by depths at the nodes, mm.
     #[inline(always)]
     fn opening_mm(&self, i: usize, depth_mm: &[f64]) -> f64 {
-        let Weights { first, weights } = self.row(i);
-        self.askew[i] * weighted_sum(weights, &depth_mm[first..])
+        self.askew[i] * self.mean(i, depth_mm)
     }
 }
 
@@ -161,18 +171,24 @@ impl LoadTransfer {
         );
     }
 
-    /// Means of nodal values of `gear`, weighted by the load `force` on the rows; 0 without load.
-    pub fn mean_on<const N: usize>(&self, gear: Gear, force: &[f64], at_node: impl Fn(usize) -> [f64; N]) -> [f64; N] {
-        let (mut sums, mut whole) = ([0.0; N], 0.0);
+    /// Whether it is linearised about worn flanks.
+    pub fn is_about_worn(&self) -> bool {
+        self.about_rad.is_some()
+    }
+
+    /// Means under the load `force` of the rows on the mate's flank, tilted by `tilt_rad` at the nodes: of the change of its tilt since the rule was
+    /// linearised, and of the tilt, rad; 0 without load.
+    pub fn mates_turn_and_tilt_rad(&self, force: &[f64], tilt_rad: &PerGear<Vec<f64>>) -> [f64; 2] {
+        let mate = self.slave.mate();
+        let (mut turn, mut tilt, mut whole) = (0.0, 0.0, 0.0);
         for (i, &force) in force.iter().enumerate().filter(|(_, force)| **force > 0.0) {
-            let Weights { first, weights } = self.means[gear].row(i);
+            let now = self.means[mate].mean(i, &tilt_rad[mate]);
+            let about = self.about_rad.as_ref().map_or(0.0, |about| about[i]);
             whole += force;
-            for (k, m) in weights.iter().enumerate().filter(|(_, m)| **m > 0.0) {
-                let own = at_node(first + k);
-                sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += force * m * own);
-            }
+            turn += force * (now - about).abs();
+            tilt += force * now.abs();
         }
-        if whole > 0.0 { sums.map(|sum| sum / whole) } else { sums }
+        if whole > 0.0 { [turn / whole, tilt / whole] } else { [0.0; 2] }
     }
 
     /// Adds the wear of the rows, `depth_mm` each, to the depths at the nodes of a flank.
@@ -207,6 +223,14 @@ struct Foot {
     cosine: f64,
 }
 
+impl Foot {
+    /// Opening of the gap by wear according to the linear rule, mm.
+    fn linear_opening_mm(&self, place: usize, slave: Gear, mate: &FlankNodes, worn: Worn<'_>) -> f64 {
+        let mates_mm = mate.depth_at_mm(self.along_mm, worn.depth_mm[slave.mate()]);
+        worn.depth_mm[slave][place] + mates_mm / self.cosine.max(LEAST_COSINE)
+    }
+}
+
 /// Feet of the slave's nodes by their number on its flank.
 type Feet = BTreeMap<usize, Foot>;
 
@@ -232,37 +256,58 @@ impl CondensedPair<'_> {
     }
 
     /// Load transfer of each tooth pair that may touch at a position, which represents the path from
-    /// `stretch_mm.0` to `stretch_mm.1`, under the transmission error `turned_mm`; linearised about `worn` flanks where given.
+    /// `stretch_mm.0` to `stretch_mm.1`, under the transmission error `turned_mm`, on new flanks.
     pub fn load_transfers(
         &self,
         prepared: &PreparedPosition,
         stretch_mm: (f64, f64),
         turned_mm: f64,
         nodes: PerGear<&FlankNodes>,
-        worn: Option<Worn<'_>>,
     ) -> Vec<LoadTransfer> {
         let passing = Passing { position_mm: prepared.position_mm, stretch_mm, turned_mm };
-        prepared.facings.iter().map(|facing| self.load_transfer(passing, facing, nodes, worn)).collect()
+        prepared.facings.iter().map(|facing| self.load_transfer(passing, facing, nodes, None)).collect()
     }
 
+    /// Load transfer `known` of one of the tooth pairs under another transmission error, linearised about `worn` flanks where given.
+    pub fn load_transfer_anew(
+        &self,
+        known: &LoadTransfer,
+        prepared: &PreparedPosition,
+        stretch_mm: (f64, f64),
+        turned_mm: f64,
+        nodes: PerGear<&FlankNodes>,
+        worn: Option<Worn<'_>>,
+    ) -> LoadTransfer {
+        let passing = Passing { position_mm: prepared.position_mm, stretch_mm, turned_mm };
+        let facing = prepared.facings.iter().find(|facing| facing.pair == known.pair);
+        let facing = facing.expect("the load transfer is one of the position");
+        self.load_transfer(passing, facing, nodes, worn.map(|worn| (worn, known.unworn_gap_mm.clone())))
+    }
+
+    /// On `worn` flanks the gaps of the rows on new ones are known.
     fn load_transfer(
         &self,
         passing: Passing,
         facing: &FacingTeeth,
         nodes: PerGear<&FlankNodes>,
-        worn: Option<Worn<'_>>,
+        worn: Option<(Worn<'_>, Vec<Option<f64>>)>,
     ) -> LoadTransfer {
         let Passing { position_mm, stretch_mm, turned_mm } = passing;
         let slave = facing.slave;
         let (own, mate) = (nodes[slave], nodes[slave.mate()]);
-        let feet = self.feet(position_mm, facing, nodes, worn);
-        let beyond_rule_mm = match worn {
-            Some(worn) => {
-                let unworn = self.feet(position_mm, facing, nodes, None);
-                let places = facing.coupling.nodes.iter().map(|node| own.place[*node]);
-                places.map(|place| beyond_rule_mm(place, slave, mate, worn, (&unworn, &feet))).collect()
+        let feet = self.feet(position_mm, facing, nodes, worn.as_ref().map(|(worn, _)| *worn));
+        let of_rows = || facing.coupling.nodes.iter().map(|node| (own.place[*node], feet.get(&own.place[*node])));
+        let mut beyond_rule_mm = vec![0.0; facing.coupling.len()];
+        let (worn, unworn_gap_mm) = match worn {
+            Some((worn, unworn_gap_mm)) => {
+                for ((beyond, unworn), (place, foot)) in beyond_rule_mm.iter_mut().zip(&unworn_gap_mm).zip(of_rows()) {
+                    if let (Some(unworn), Some(foot)) = (unworn, foot) {
+                        *beyond = foot.gap_mm - unworn - foot.linear_opening_mm(place, slave, mate, worn);
+                    }
+                }
+                (Some(worn), unworn_gap_mm)
             }
-            None => vec![0.0; facing.coupling.len()],
+            None => (None, of_rows().map(|(_, foot)| foot.map(|foot| foot.gap_mm)).collect()),
         };
         let (moved, off_mm) = self.off_mm(passing, facing);
         let contact_mm = PerGear::from_fn(|gear| self.contact_moves_mm(position_mm, stretch_mm, facing.pair, gear));
@@ -292,6 +337,10 @@ impl CondensedPair<'_> {
         }
         let first = along_mm.iter().copied().fold(f64::INFINITY, f64::min);
         along_mm.iter_mut().for_each(|at| *at -= first);
+        let about_rad = worn.map(|worn| {
+            let (means, tilt_rad) = (&means[slave.mate()], &worn.tilt_rad[slave.mate()]);
+            (0..facing.coupling.len()).map(|i| means.mean(i, tilt_rad)).collect()
+        });
         LoadTransfer {
             pair: facing.pair,
             slave,
@@ -300,7 +349,9 @@ impl CondensedPair<'_> {
             sliding_mm,
             along_mm,
             means,
+            unworn_gap_mm,
             beyond_rule_mm,
+            about_rad,
             slave_off_mm: if moved == slave { off_mm } else { 0.0 },
         }
     }
@@ -414,13 +465,6 @@ impl CondensedPair<'_> {
         // NaN on a rounding is never greater.
         self.flanks[gear].rho_mm.iter().copied().fold(f64::NEG_INFINITY, f64::max)
     }
-}
-
-/// Difference of a row's gap on worn flanks from that of the linear rule, by its feet on unworn and on worn flanks, mm.
-fn beyond_rule_mm(place: usize, slave: Gear, mate: &FlankNodes, worn: Worn<'_>, feet: (&Feet, &Feet)) -> f64 {
-    let (Some(unworn), Some(foot)) = (feet.0.get(&place), feet.1.get(&place)) else { return 0.0 };
-    let mates_mm = mate.depth_at_mm(foot.along_mm, worn.depth_mm[slave.mate()]);
-    foot.gap_mm - unworn.gap_mm - worn.depth_mm[slave][place] - mates_mm / foot.cosine.max(LEAST_COSINE)
 }
 
 /// Node of the master in the frame of the slave's tooth.

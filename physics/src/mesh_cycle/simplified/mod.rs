@@ -235,6 +235,10 @@ impl WearingPair for SimplifiedPair<'_> {
         greater_or_nan(greatest(row.pinion), greatest(row.wheel))
     }
 
+    fn mean_about_mm(&self, _: Gear, place: usize, row: &[f64]) -> f64 {
+        row[place]
+    }
+
     fn wear_at_points_mm(&self) -> PerGear<Vec<f64>> {
         PerGear::from_fn(|gear| {
             let points = self.grid[gear].len();
