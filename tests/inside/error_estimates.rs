@@ -140,6 +140,8 @@ fn val_finite_elements_are_verified_on_coarser_ones() {
     let adaptive = format!("step = \"adaptive\"\ntolerance_um = {tolerance_um}");
     let coarser = unverified(&text)
         .replace("positions = 100 ", "positions = 67 ")
+        // A verification keeps no states on its way, at which its steps would end.
+        .replace("0.25, 0.75, 1.75, 3.75, 7.75, 15.75, 31.75, 63.75, 127.75", "127.75")
         .replace("step = { revolutions = 40000.0 }", &adaptive);
     let coarser = run(&format!("{coarser}\n[fem]\nelements_per_half_width = 2.0\n"));
     let error = summary.error;
@@ -150,7 +152,7 @@ fn val_finite_elements_are_verified_on_coarser_ones() {
     ];
     for (own, check, claimed) in of_gears {
         let (off, claimed) = ((own / check - 1.0).abs(), claimed.expect("verified"));
-        assert!((claimed - off - 0.006).abs() < 1e-4, "{claimed} {off}");
+        assert!((claimed - off - 0.006).abs() < 1e-9, "{claimed} {off}");
     }
     let errors = [total.profile.pinion, total.profile.wheel, total.peak_wear.pinion, total.peak_wear.wheel];
     // The uncertainty that the finite elements claim is 0.6 %; a coarse path of 100 positions leaves some more.
