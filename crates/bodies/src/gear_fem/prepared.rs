@@ -24,7 +24,7 @@ const FIRST_REACH: f64 = 25.0;
 /// Ratio of the approach to the reach beyond which greater gaps may close.
 const REACH_USED: f64 = 0.8;
 /// Half-widths of the first window on either side of the expected contact.
-const FIRST_WINDOW: f64 = 1.4;
+const FIRST_WINDOW: f64 = 1.6;
 /// Ratio of widths of successive windows.
 const WIDER: f64 = 1.6;
 /// Ratio of reaches across the gap of successive windows.
@@ -153,9 +153,9 @@ impl<'a> CondensedPair<'a> {
                 Ok(mut found) => {
                     log.append(&mut found.log);
                     // Overlaps beside the last window remain, and are reported.
-                    let wider = match prepared.is_cramped(&found) && !last {
-                        true => Some(prepared.window.wider()),
-                        false => self.window_over_overlaps(prepared, &found, depth_mm).filter(|_| !last),
+                    let wider = match prepared.window_around(&found).filter(|_| !last) {
+                        None => self.window_over_overlaps(prepared, &found, depth_mm).filter(|_| !last),
+                        wider => wider,
                     };
                     prepared.active = Some(found.active.clone());
                     match wider {
@@ -168,7 +168,7 @@ impl<'a> CondensedPair<'a> {
                     SearchWindow { shares_multipliers: false, ..prepared.window.clone() }
                 }
                 Err(error) if last || !prepared.misses_contact(&error) => return Err(error),
-                Err(_) => prepared.window.wider(),
+                Err(_) => prepared.window.clone().longer().farther(),
             };
             self.widen(prepared, wider);
         }
@@ -243,9 +243,12 @@ impl<'a> CondensedPair<'a> {
 }
 
 impl SearchWindow {
-    fn wider(&self) -> Self {
-        let Self { half_widths, reach_mm, .. } = *self;
-        Self { half_widths: WIDER * half_widths, reach_mm: FARTHER * reach_mm, ..self.clone() }
+    fn longer(self) -> Self {
+        Self { half_widths: WIDER * self.half_widths, ..self }
+    }
+
+    fn farther(self) -> Self {
+        Self { reach_mm: FARTHER * self.reach_mm, ..self }
     }
 }
 
@@ -327,10 +330,17 @@ impl PreparedPosition {
         matches!(error, ActiveSetError::NoContact { .. }) || self.unworn_gap_mm.is_empty()
     }
 
-    /// Whether contact may extend beyond the window.
-    fn is_cramped(&self, found: &ContactEquilibrium) -> bool {
-        found.rigid[0] > REACH_USED * self.window.reach_mm
-            || self.facings.iter().any(|facing| facing.is_cramped(&found.force))
+    /// Window that does not cut off the contact of `found`; `None` where the present one does not.
+    fn window_around(&self, found: &ContactEquilibrium) -> Option<SearchWindow> {
+        let is_near = found.rigid[0] > REACH_USED * self.window.reach_mm;
+        let is_cramped = self.facings.iter().any(|facing| facing.is_cramped(&found.force));
+        let window = || self.window.clone();
+        match (is_cramped, is_near) {
+            (false, false) => None,
+            (true, false) => Some(window().longer()),
+            (false, true) => Some(window().farther()),
+            (true, true) => Some(window().longer().farther()),
+        }
     }
 }
 

@@ -9,7 +9,7 @@
 //!
 //! and the slave edge faces the master edge between these points of its two ends. The left-hand side falls with ξ as
 //! long as normals do not cross between the surfaces, so its signs at the ends of the slave edge show without iteration
-//! whether such a point lies on the edge.
+//! whether such a point lies on the edge. On a master edge the point that is met is the root of a polynomial of second degree.
 
 use nalgebra::Vector2;
 use parry2d_f64::bounding_volume::Aabb;
@@ -34,6 +34,13 @@ pub(crate) struct FacingSegment {
     pub to: f64,
     /// Number of the master edge.
     pub master: usize,
+}
+
+/// Point of a slave edge, and the unit normal there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SlavePoint {
+    pub point_mm: Vector2<f64>,
+    pub normal: Vector2<f64>,
 }
 
 /// Projection of a slave point onto a master edge.
@@ -122,45 +129,66 @@ impl<'a> MasterSearch<'a> {
         if to - from < PARALLEL {
             return None;
         }
-        let middle = 0.5 * (from + to);
-        let meeting = self.meet(slave, edge, middle, master)?;
+        let middle = SlavePoint::new(slave, edge, 0.5 * (from + to))?;
+        let meeting = self.meet(middle, master)?;
         (meeting.gap_mm.abs() <= reach_mm)
             .then_some((meeting.gap_mm.abs(), FacingSegment { slave: number, from, to, master }))
     }
 
-    /// Projection along the normal at ξ of a slave edge onto a master edge; `None` where that faces away.
-    pub(crate) fn meet(&self, slave: &Surface, edge: &SurfaceEdge, xi: f64, master: usize) -> Option<Meeting> {
-        let (point, _) = slave.point_and_tangent(edge, xi);
-        let (normal, _) = slave.normal_and_derivative(edge, xi);
-        let normal = normal.try_normalize(PARALLEL)?;
-        let master_edge = &self.master.edges[master];
+    /// Projection along the normal of a slave point onto a master edge; `None` where that faces away.
+    pub(crate) fn meet(&self, SlavePoint { point_mm, normal }: SlavePoint, master: usize) -> Option<Meeting> {
+        let edge = &self.master.edges[master];
         // The offset to the right of the normal rises along the master, which runs the other way; its opposite falls.
-        let eta = falling_root_between(|eta| {
-            let (place, tangent) = self.master.point_and_tangent(master_edge, eta);
-            (-cross(place - point, normal), -cross(tangent, normal))
-        });
-        let (place, tangent) = self.master.point_and_tangent(master_edge, eta);
+        let offset = |node: usize| -cross(self.master.points_mm[node] - point_mm, normal);
+        let eta = falling_polynomial_root(edge.nodes().iter().map(|&node| offset(node)));
+        let (place, tangent) = self.master.point_and_tangent(edge, eta);
         let facing = -super::edge::outward(tangent).dot(&normal) / tangent.norm();
-        (facing > LEAST_FACING).then(|| Meeting { eta, gap_mm: (place - point).dot(&normal) })
+        (facing > LEAST_FACING).then(|| Meeting { eta, gap_mm: (place - point_mm).dot(&normal) })
     }
 }
 
-/// [`falling_root`], or the nearer end where there is none.
-fn falling_root_between(f: impl Fn(f64) -> (f64, f64)) -> f64 {
-    let ends = [-1.0, 1.0].map(|end| f(end).0);
-    match ends {
-        [first, _] if first <= 0.0 => -1.0,
-        [_, last] if last >= 0.0 => 1.0,
-        _ => falling_root(f, ends),
+impl SlavePoint {
+    /// Point at ξ of an edge; `None` where that has no normal.
+    pub(crate) fn new(slave: &Surface, edge: &SurfaceEdge, xi: f64) -> Option<Self> {
+        let (normal, _) = slave.normal_and_derivative(edge, xi);
+        let (point_mm, _) = slave.point_and_tangent(edge, xi);
+        normal.try_normalize(PARALLEL).map(|normal| Self { point_mm, normal })
     }
+}
+
+/// The nearer end where a falling function has no root between −1 and 1, by its values there.
+fn end_without_root([first, last]: [f64; 2]) -> Option<f64> {
+    if first <= 0.0 {
+        Some(-1.0)
+    } else if last >= 0.0 {
+        Some(1.0)
+    } else {
+        None
+    }
+}
+
+/// Root between −1 and 1, or the nearer end, of a falling polynomial of first or second degree, by its values at −1, 1 and, of the second, 0.
+fn falling_polynomial_root(mut values: impl Iterator<Item = f64>) -> f64 {
+    let [first, last] = [values.next(), values.next()].map(|value| value.expect("an edge has two ends"));
+    end_without_root([first, last]).unwrap_or_else(|| {
+        let mean = first.midpoint(last);
+        let (slope, middle) = (last.midpoint(-first), values.next().unwrap_or(mean));
+        // The root where it falls, in the form without cancellation: c + b η + a η² = 0 with b < 0.
+        2.0 * middle / ((slope * slope - 4.0 * (mean - middle) * middle).max(0.0).sqrt() - slope)
+    })
 }
 
 /// Coordinate ξ on the slave edge, from −1 to 1, whose normal passes nearest to `point`.
 fn project_onto_slave(slave: &Surface, edge: &SurfaceEdge, point: Vector2<f64>) -> f64 {
-    falling_root_between(|xi| {
-        let (place, tangent) = slave.point_and_tangent(edge, xi);
-        let (normal, normal_slope) = slave.normal_and_derivative(edge, xi);
-        (cross(place - point, normal), cross(tangent, normal) + cross(place - point, normal_slope))
+    let at_node = |node: usize| cross(slave.points_mm[node] - point, slave.normals[node]);
+    let ends = [edge.nodes()[0], edge.nodes()[1]].map(at_node);
+    end_without_root(ends).unwrap_or_else(|| {
+        let offset = |xi: f64| {
+            let (place, tangent) = slave.point_and_tangent(edge, xi);
+            let (normal, normal_slope) = slave.normal_and_derivative(edge, xi);
+            (cross(place - point, normal), cross(tangent, normal) + cross(place - point, normal_slope))
+        };
+        falling_root(offset, ends)
     })
 }
 
@@ -193,4 +221,20 @@ fn what_is_free(taken: &[FacingSegment], segment: FacingSegment) -> Vec<FacingSe
             .collect();
     }
     free
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn falling_polynomials_have_one_root_or_end_before_it() {
+        let root = |values: &[f64]| falling_polynomial_root(values.iter().copied());
+        // 1 − 3 η, (0.3 − η)(η + 5) and (0.3 − η)(5 − η).
+        let inside = [(&[4.0, -2.0][..], 1.0 / 3.0), (&[5.2, -4.2, 1.5], 0.3), (&[7.8, -2.8, 1.5], 0.3)];
+        for (values, expected) in inside {
+            assert!((root(values) - expected).abs() < 1e-15, "{values:?}");
+        }
+        assert_eq!([root(&[-1.0, -2.0]), root(&[3.0, 1.0, 2.2])], [-1.0, 1.0]);
+    }
 }

@@ -13,7 +13,7 @@ use sprs::CsMat;
 
 use super::dual_basis::{DualBasis, gauss_points};
 use super::edge::shape;
-use super::master_search::{FacingSegment, MasterSearch};
+use super::master_search::{FacingSegment, MasterSearch, SlavePoint};
 use super::surface::Surface;
 use crate::elastic::Analysis;
 
@@ -198,9 +198,9 @@ fn integrate_edge(
     for segment in segments {
         for (from, to) in smooth_stretches(segment, &basis) {
             for (xi, weight) in gauss_points(from, to) {
-                let Some(meeting) = facing.meet(slave, edge, xi, segment.master) else { continue };
-                let (normal, _) = slave.normal_and_derivative(edge, xi);
-                let Some(normal) = normal.try_normalize(0.0) else { continue };
+                let Some(point) = SlavePoint::new(slave, edge, xi) else { continue };
+                let Some(meeting) = facing.meet(point, segment.master) else { continue };
+                let normal = point.normal;
                 let (psi, weight) = (basis.at(xi), weight * jacobian(xi));
                 let own_shape = shape(count, xi);
                 let master_nodes = facing.master.edges[segment.master].nodes();

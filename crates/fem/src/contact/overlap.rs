@@ -13,7 +13,7 @@ use nalgebra::Vector2;
 
 use super::dual_basis::gauss_points;
 use super::edge::{interpolate, shape};
-use super::master_search::MasterSearch;
+use super::master_search::{MasterSearch, SlavePoint};
 use super::surface::Surface;
 
 /// Surface with the displacements of its local nodes.
@@ -44,10 +44,10 @@ pub(crate) fn largest_overlap_mm(slave: Moved<'_>, master: Moved<'_>, reach_mm: 
         for segment in facing.segments(slave.surface, number, reach_mm) {
             let mate = master.surface.edges[segment.master];
             for (xi, _) in gauss_points(segment.from, segment.to) {
-                let Some(meeting) = facing.meet(slave.surface, edge, xi, segment.master) else { continue };
-                let Some(normal) = slave.surface.normal_and_derivative(edge, xi).0.try_normalize(0.0) else { continue };
+                let Some(point) = SlavePoint::new(slave.surface, edge, xi) else { continue };
+                let Some(meeting) = facing.meet(point, segment.master) else { continue };
                 let relative = master.at(mate.nodes(), meeting.eta) - slave.at(edge.nodes(), xi);
-                largest_mm = largest_mm.max(-(meeting.gap_mm + normal.dot(&relative)));
+                largest_mm = largest_mm.max(-(meeting.gap_mm + point.normal.dot(&relative)));
             }
         }
     }

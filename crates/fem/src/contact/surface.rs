@@ -77,7 +77,9 @@ impl Surface {
 
     /// Surface of some of the edges alone; nodes keep their numbers and normals.
     pub fn part(&self, edges: std::ops::Range<usize>) -> Self {
-        Self { edges: self.edges[edges].to_vec(), ..self.clone() }
+        let Self { mesh_nodes, points_mm, normals, .. } = self;
+        let (mesh_nodes, points_mm, normals) = (mesh_nodes.clone(), points_mm.clone(), normals.clone());
+        Self { mesh_nodes, points_mm, normals, edges: self.edges[edges].to_vec() }
     }
 
     fn mean_normals(&self) -> Vec<Vector2<f64>> {
