@@ -24,7 +24,7 @@ const FIRST_REACH: f64 = 25.0;
 /// Ratio of the approach to the reach beyond which greater gaps may close.
 const REACH_USED: f64 = 0.8;
 /// Half-widths of the first window on either side of the expected contact.
-const FIRST_WINDOW: f64 = 1.6;
+const FIRST_WINDOW: f64 = 1.4;
 /// Ratio of widths of successive windows.
 const WIDER: f64 = 1.6;
 /// Ratio of reaches across the gap of successive windows.
