@@ -109,7 +109,7 @@ def test_executors_change_nothing(engine: str, whole: gearwear.Sweep, tmp_path: 
         found = gearwear.sweep(scene(), VARY, executor=pool, out=tmp_path)
     assert timeless(found) == timeless(whole)
     assert sorted(path.name for path in tmp_path.iterdir()) == [
-        "columns.json", "report.html", "rows.jsonl", "scene.toml", "sweep.csv", "sweep.json"
+        "columns.json", "report.html", "rows.jsonl", "scene.toml", "sweep.csv", "sweep.json", "sweep.parquet"
     ]
 
 
