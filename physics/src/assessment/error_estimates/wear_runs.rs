@@ -212,7 +212,8 @@ pub(super) fn estimate<'a>(
 fn of_the_steps(companions: &CompanionRuns<'_>, error_mm: PerGear<f64>) -> (f64, String) {
     (
         companions.relative(error_mm, PerGear::default()),
-        "sum of the estimated errors of all adaptive steps where the wear is greatest".to_owned(),
+        "sum of the estimated errors of all adaptive steps, its mean along the flank about the greatest wear"
+            .to_owned(),
     )
 }
 
