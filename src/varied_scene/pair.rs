@@ -6,10 +6,14 @@ use crate::scene::loaded::LoadedScene;
 use crate::scene::planetary::mesh::StageMesh;
 use crate::scene::{Problem, Resolved};
 use gearwear_bodies::gear::spec::PairSpec;
+use gearwear_physics::assessment::kept_elements::KeptElements;
 use gearwear_physics::assessment::{Done, RunError};
 use gearwear_physics::calibration::identity::CalibrationIdentity;
 use gearwear_physics::observer::Observer;
 use gearwear_physics::operation::Scene;
+
+/// Memory of finite elements that runs leave to one another, GB.
+const KEPT_GB: f64 = 0.3;
 
 #[derive(Debug, Clone)]
 pub struct VariedPair {
@@ -37,7 +41,8 @@ impl VariedPair {
                 draft.set(&own, error_estimate);
             }
         }
-        Ok(Self { draft, given: given.clone(), with_other_modifications: false, torque_curve: false })
+        let given = LoadedScene { elements: KeptElements::up_to_gb(KEPT_GB), ..given.clone() };
+        Ok(Self { draft, given, with_other_modifications: false, torque_curve: false })
     }
 
     /// The same with the transmission error over torque, if that is `asked` for.

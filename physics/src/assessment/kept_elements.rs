@@ -1,36 +1,35 @@
-//! Plane finite elements that one run of a study leaves to the next of the same pair.
+//! Plane finite elements that runs of a study leave to one another.
 //!
-//! Meshing and condensation depend on the pair, its elastic constants, the load that the mesh is made for and the bodies, not on flank points, positions,
-//! steps or wear: runs that differ in these alone have the same elements. Only those of the last run are kept.
+//! A condensed gear depends on its mesh and its elastic constants alone: not on flank points, positions, steps or wear, and on its mate only as far as that
+//! changes the mesh. Gears of the same mesh are condensed once. Those that were not asked for longest make room for others.
 
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use gearwear_bodies::gear::{GearPair, PerGear, spec::PairSpec};
+use gearwear_bodies::gear::{GearPair, PerGear};
 use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
 use gearwear_bodies::gear_fem::flank_surface::MeshedFlank;
-use gearwear_bodies::gear_fem::model::ModelError;
+use gearwear_bodies::gear_fem::model::{MeshedGear, ModelError};
 use gearwear_bodies::gear_fem::ring::GearCompliance;
 use gearwear_bodies::gear_mesh::settings::BodySettings;
 use gearwear_fem::elastic::Elastic;
 
-/// Elements of the last run; by default none are kept.
+/// Condensed gears of earlier runs; by default none are kept.
 #[derive(Clone, Default)]
-pub struct KeptElements(Option<Arc<Mutex<Option<KeptPair>>>>);
+pub struct KeptElements(Option<Arc<Mutex<KeptGears>>>);
 
-/// What condensed gears depend on: pair, materials, line load and bodies.
-#[derive(Clone, PartialEq)]
-struct ElementsOf {
-    pair: PairSpec,
-    material: PerGear<Elastic>,
-    line_load_n_per_mm: f64,
-    bodies: BodySettings,
+/// Condensed gears, the one asked for last at the end.
+struct KeptGears {
+    /// Memory that they may take, GB; the last pinion and the last wheel are kept whatever they take.
+    most_gb: f64,
+    gears: Vec<KeptGear>,
 }
 
-/// Condensed gears of a pair.
-struct KeptPair {
-    of: ElementsOf,
-    gears: PerGear<(GearCompliance, MeshedFlank)>,
+/// A condensed gear, and what it was made of.
+struct KeptGear {
+    meshed: MeshedGear,
+    material: Elastic,
+    condensed: (GearCompliance, MeshedFlank),
 }
 
 /// All are equal: kept elements are no property of a scene.
@@ -47,9 +46,9 @@ impl fmt::Debug for KeptElements {
 }
 
 impl KeptElements {
-    /// Elements that are kept from one run to the next.
-    pub fn of_last_run() -> Self {
-        Self(Some(Arc::default()))
+    /// As many gears as take `most_gb` of memory, the last pair at least, are kept from one run to the next.
+    pub fn up_to_gb(most_gb: f64) -> Self {
+        Self(Some(Arc::new(Mutex::new(KeptGears { most_gb, gears: Vec::new() }))))
     }
 
     /// Condensed gears of `pair`: those kept, or new ones; much memory is announced before.
@@ -64,18 +63,48 @@ impl KeptElements {
         bodies: &BodySettings,
         announce: &dyn Fn(&str),
     ) -> Result<CondensedPair<'a>, ModelError> {
-        let build = || CondensedPair::build(pair, material, line_load_n_per_mm, bodies, announce);
-        let Some(last) = &self.0 else { return build() };
-        let of = ElementsOf { pair: pair.spec.clone(), material: *material, line_load_n_per_mm, bodies: *bodies };
-        // Nothing is half changed where another thread panics.
-        let mut last = last.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(kept) = last.as_ref().filter(|kept| kept.of == of) {
-            return Ok(CondensedPair::new(pair, material, kept.gears.clone()));
+        let condense = |meshed: &MeshedGear, own: Elastic| {
+            let new = || meshed.condense_without_stresses(pair, own);
+            let Some(kept) = &self.0 else { return new() };
+            // Nothing is half changed where another thread panics. Runs on other threads go on while a gear is condensed: one that wants the same finds
+            // the same bits.
+            let locked = || kept.lock().unwrap_or_else(PoisonError::into_inner);
+            let found = locked().find(meshed, own);
+            found.map_or_else(|| Ok(locked().keep(meshed, own, new()?)), Ok)
+        };
+        CondensedPair::build_by(condense, pair, material, line_load_n_per_mm, bodies, announce)
+    }
+}
+
+impl KeptGears {
+    /// The gear condensed of this mesh and material, which is the one asked for last then.
+    fn find(&mut self, meshed: &MeshedGear, material: Elastic) -> Option<(GearCompliance, MeshedFlank)> {
+        let at = self.gears.iter().position(|kept| kept.material == material && kept.meshed == *meshed)?;
+        let kept = self.gears.remove(at);
+        let condensed = kept.condensed.clone();
+        self.gears.push(kept);
+        Some(condensed)
+    }
+
+    /// Keeps a gear that was condensed of this mesh and material, and returns it.
+    fn keep(
+        &mut self,
+        meshed: &MeshedGear,
+        material: Elastic,
+        condensed: (GearCompliance, MeshedFlank),
+    ) -> (GearCompliance, MeshedFlank) {
+        if self.find(meshed, material).is_none() {
+            self.gears.push(KeptGear { meshed: meshed.clone(), material, condensed: condensed.clone() });
         }
-        *last = None;
-        let built = build()?;
-        let gears = PerGear::from_fn(|gear| (built.gears[gear].clone(), built.flanks[gear].clone()));
-        *last = Some(KeptPair { of, gears });
-        Ok(built)
+        let mut left_gb = self.most_gb;
+        let mut newer = PerGear { pinion: 0, wheel: 0 };
+        let mut stays: Vec<bool> = Vec::new();
+        for kept in self.gears.iter().rev() {
+            left_gb -= kept.meshed.condensed_gb();
+            stays.push(newer[kept.meshed.gear] == 0 || left_gb >= 0.0);
+            newer[kept.meshed.gear] += 1;
+        }
+        self.gears.retain(|_| stays.pop() != Some(false));
+        condensed
     }
 }

@@ -341,6 +341,10 @@ impl Rate for OnRows<'_, '_> {
         Ok(())
     }
 
+    fn is_steep(&self) -> bool {
+        self.rate.wear.surely_mild_mpa().is_some()
+    }
+
     fn size(&self, row: &[f64]) -> f64 {
         let (pinion, wheel) = row.split_at(self.wear_mm.pinion.len());
         self.rate.pair.greatest_mean_mm(PerGear { pinion, wheel })

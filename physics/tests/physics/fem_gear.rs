@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use gearwear_bodies::gear::modification::{Relief, ReliefShape};
 use gearwear_bodies::gear::spec::PairSpec;
 use gearwear_bodies::gear::{GearPair, PerGear};
 use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
@@ -278,21 +279,39 @@ fn ver_same_in_mm_and_in_m() {
     assert_close("peak pressure", m.1, mm.1, 1e-9);
 }
 
-/// Runs of one study share the elements of the last pair; other loads and meshes have their own, and nothing is kept where it is not asked for.
+/// Runs of one study share gears of the same mesh: other loads, sizes of elements and materials have their own, and one gear is another beside a mate that
+/// changes its mesh alone.
 #[test]
-fn elements_of_the_last_run_are_kept() {
-    let pair = GearPair::new(&fzg_c()).unwrap();
-    let sector = |kept: &KeptElements, load: f64, elements: f64| {
-        let built = kept.condensed(&pair, &steel(), load * line_load(&pair), &settings(Body::Ring, elements), &|_| {});
-        Arc::clone(&built.unwrap().gears.pinion.sector)
+fn gears_of_the_same_mesh_are_condensed_once() {
+    let sectors = |kept: &KeptElements, load: f64, elements: f64, material: &PerGear<Elastic>, spec: &PairSpec| {
+        let pair = GearPair::new(spec).unwrap();
+        let built = kept.condensed(&pair, material, load * line_load(&pair), &settings(Body::Ring, elements), &|_| {});
+        built.unwrap().gears.map(|gear| gear.sector)
     };
-    let kept = KeptElements::of_last_run();
-    let first = sector(&kept, 1.0, 2.0);
-    assert!(Arc::ptr_eq(&first, &sector(&kept.clone(), 1.0, 2.0)));
-    assert!(!Arc::ptr_eq(&first, &sector(&kept, 0.5, 2.0)));
-    assert!(!Arc::ptr_eq(&first, &sector(&kept, 1.0, 3.0)));
-    // Those of the first pair are gone.
-    assert!(!Arc::ptr_eq(&first, &sector(&kept, 1.0, 2.0)));
+    let kept = KeptElements::up_to_gb(0.0);
+    let of_pair = |kept: &KeptElements, load, elements| sectors(kept, load, elements, &steel(), &fzg_c()).pinion;
+    let first = of_pair(&kept, 1.0, 2.0);
+    assert!(Arc::ptr_eq(&first, &of_pair(&kept.clone(), 1.0, 2.0)));
+    assert!(!Arc::ptr_eq(&first, &of_pair(&kept, 0.5, 2.0)));
+    // That of the first pair has made room.
+    assert!(!Arc::ptr_eq(&first, &of_pair(&kept, 1.0, 2.0)));
+    assert!(!Arc::ptr_eq(&of_pair(&kept, 1.0, 2.0), &of_pair(&kept, 1.0, 3.0)));
     let none = KeptElements::default();
-    assert!(!Arc::ptr_eq(&sector(&none, 1.0, 2.0), &sector(&none, 1.0, 2.0)));
+    assert!(!Arc::ptr_eq(&of_pair(&none, 1.0, 2.0), &of_pair(&none, 1.0, 2.0)));
+
+    // A relief of the wheel that begins elsewhere makes another mesh of the pinion, one that is deeper does not.
+    let relieved = |amount_mm: f64, length_mm: f64| {
+        let mut spec = fzg_c();
+        spec.gears.wheel.modification.tip_relief = Some(Relief { amount_mm, length_mm, shape: ReliefShape::Linear });
+        spec
+    };
+    let kept = KeptElements::up_to_gb(0.2);
+    let [one, deeper, longer, again] = [(0.02, 2.0), (0.03, 2.0), (0.02, 1.5), (0.02, 2.0)]
+        .map(|(amount_mm, length_mm)| sectors(&kept, 1.0, 2.0, &steel(), &relieved(amount_mm, length_mm)));
+    assert!(Arc::ptr_eq(&one.pinion, &deeper.pinion) && !Arc::ptr_eq(&one.wheel, &deeper.wheel));
+    assert!(!Arc::ptr_eq(&one.pinion, &longer.pinion));
+    assert!(Arc::ptr_eq(&one.pinion, &again.pinion) && Arc::ptr_eq(&one.wheel, &again.wheel));
+    let softer = PerGear { wheel: Elastic { young_modulus_mpa: 1e5, ..steel().wheel }, ..steel() };
+    let other = sectors(&kept, 1.0, 2.0, &softer, &relieved(0.02, 2.0));
+    assert!(!Arc::ptr_eq(&one.wheel, &other.wheel));
 }

@@ -208,7 +208,7 @@ fn ver_adaptive_steps_bear_any_transition() {
 /// a fifth of the tolerance.
 #[test]
 fn ver_severe_wear_takes_few_evaluations() {
-    for (band, most) in [(0.05, 800), (SevereTransition::LEAST_BAND, 1500)] {
+    for (band, most) in [(0.05, 750), (SevereTransition::LEAST_BAND, 1200)] {
         let severe = Some(SevereTransition { above_mpa: 2000.0, factor: 100.0, band_mpa: band * 2000.0 });
         let scene = Scene { severe, torque_n_mm: 372.6e3, ..coarse("half-space") };
         let [outcome, fine] =
@@ -224,6 +224,7 @@ fn ver_severe_wear_takes_few_evaluations() {
         let (equilibria, evaluations) = (outcome.work.equilibria as f64, (stages + probes) as f64);
         println!("band {band}: {:.2} of all positions", equilibria / (all * evaluations));
         assert!(equilibria < 0.6 * all * evaluations, "band {band}: {equilibria} equilibria");
-        assert!(2 * outcome.work.mesh_cycles < stages + probes, "band {band}: {:?}", outcome.work);
+        // All positions are evaluated at the ends of steps alone.
+        assert!(outcome.work.mesh_cycles < 150, "band {band}: {:?}", outcome.work);
     }
 }

@@ -100,10 +100,14 @@ impl CondensedPair<'_> {
         for edge in &own.surface.edges[edges[slave].clone()] {
             edge.nodes().iter().for_each(|&node| in_window[node] = true);
         }
+        let mut after = master.len();
         let mut nodes: Vec<BesideNode> = own
             .tip_to_root()
             .filter(|&node| !in_window[node])
-            .filter_map(|node| self.beside_node(placed, node, &master, reach_mm))
+            .filter_map(|node| {
+                after = node_after_foot(after, &master, own.surface.points_mm[node], own.surface.normals[node]);
+                self.beside_node(placed, node, &master, after, reach_mm)
+            })
             .collect();
         let along_mm: Vec<f64> = nodes.iter().map(|at| own.from_tip_mm[at.node as usize]).collect();
         let probes = probes(&along_mm, PROBES_APART * half_width_mm);
@@ -125,18 +129,17 @@ impl CondensedPair<'_> {
         BesideWindow { pair, slave, tooth, turn, nodes, first_touch_mm, probes, spans, deepest_mm: 0.0 }
     }
 
-    /// Slave's node beside the window with its foot on the `master`'s nodes, from tip to root; `None` where there is none within reach.
+    /// Slave's node beside the window with its foot before the node `after` of the `master`'s, from tip to root; `None` where there is none within reach.
     fn beside_node(
         &self,
         placed: &PlacedTeeth,
         node: usize,
         master: &[(usize, Vector2<f64>)],
+        after: usize,
         reach_mm: f64,
     ) -> Option<BesideNode> {
         let (own, mate) = (&self.flanks[placed.slave].surface, &self.flanks[placed.slave.mate()].surface);
         let (point, normal) = (own.points_mm[node], own.normals[node]);
-        // From tip to root the master runs against the slave.
-        let after = master.partition_point(|(_, place)| (place - point).perp(&normal) < 0.0);
         let ((first, from), (second, to)) = (*master.get(after.checked_sub(1)?)?, *master.get(after)?);
         let [before, after] = [from, to].map(|place| (place - point).perp(&normal));
         let t = before / (before - after);
@@ -237,6 +240,15 @@ impl CondensedPair<'_> {
         }
         triplets.to_csr()
     }
+}
+
+/// Number of the `master`'s node after the foot of the normal at a point of the slave: as from tip to root the master runs against the slave, not far from
+/// that of the slave's node before, `near`.
+fn node_after_foot(near: usize, master: &[(usize, Vector2<f64>)], point: Vector2<f64>, normal: Vector2<f64>) -> usize {
+    let is_before_foot = |(_, place): &(usize, Vector2<f64>)| (place - point).perp(&normal) < 0.0;
+    let passed = master[near..].iter().take_while(|node| is_before_foot(node)).count();
+    let back = master[..near + passed].iter().rev().take_while(|node| !is_before_foot(node)).count();
+    near + passed - back
 }
 
 /// Numbers of the probes among nodes at `along_mm`: the first, the last, and as few between as leave no greater distance than `apart_mm`

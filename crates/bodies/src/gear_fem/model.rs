@@ -21,6 +21,8 @@ const MOST_FLANK_NODES: usize = 3000;
 /// Memory of one gear with the most nodes, GB, quadratic in the number of nodes. Measured on FZG type C with 10 and 14 elements in a half-width and
 /// tip roundings of 0.01 and 0.1 mm, and on the pair of the thesis with 24 and 36, both gears together 0.37 to 0.95 GB: within 15 %.
 const GB_OF_MOST_NODES: f64 = 0.7;
+/// Memory of a condensed sector beside the compliance of its flank, GB per degree of freedom.
+const GB_OF_A_DOF: f64 = 8e-7;
 /// Memory above which a condensation is announced, GB.
 const MUCH_MEMORY_GB: f64 = 0.8;
 /// Memory above which a condensation is refused, GB: both gears with the most nodes.
@@ -101,7 +103,7 @@ pub fn much_memory(meshed: &PerGear<MeshedGear>, bodies: f64) -> Result<Option<S
 }
 
 /// Meshed sectors of one gear.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct MeshedGear {
     /// Pinion or wheel.
     pub gear: Gear,
@@ -193,6 +195,12 @@ impl MeshedGear {
             + coarse * self.coarse.as_ref().map_or(0, dofs_without_cut)
     }
 
+    /// Memory that the condensed gear takes, GB: that of the compliance of its flank, and of what a sector needs, as measured on FZG type C.
+    pub fn condensed_gb(&self) -> f64 {
+        let flank = 2.0 * self.fine.working_flank.nodes.len() as f64;
+        8e-9 * flank * flank + GB_OF_A_DOF * self.fine.dofs() as f64
+    }
+
     /// Stress along the surface at each node of both fillets, the working side's first, σ_t = t · σ t.
     fn fillet_probes(&self, solid: &Solid, material: Elastic) -> Result<Vec<Functional>, SolveError> {
         let materials = [material];
@@ -221,6 +229,15 @@ impl MeshedGear {
     /// Condenses the gear onto the nodes of its working flanks, with the stresses at its fillets.
     pub fn condense(&self, pair: &GearPair, material: Elastic) -> Result<(GearCompliance, MeshedFlank), ModelError> {
         self.condense_with(pair, material, true)
+    }
+
+    /// As [`Self::condense`], without stresses.
+    pub fn condense_without_stresses(
+        &self,
+        pair: &GearPair,
+        material: Elastic,
+    ) -> Result<(GearCompliance, MeshedFlank), ModelError> {
+        self.condense_with(pair, material, false)
     }
 
     fn condense_with(
@@ -391,12 +408,28 @@ impl<'a> CondensedPair<'a> {
         settings: &BodySettings,
         announce: &dyn Fn(&str),
     ) -> Result<Self, ModelError> {
+        let condense = |meshed: &MeshedGear, own: Elastic| meshed.condense_without_stresses(pair, own);
+        Self::build_by(condense, pair, material, line_load_n_per_mm, settings, announce)
+    }
+
+    /// As [`Self::build`], with what `condense` makes of a meshed gear and its material ([`MeshedGear::condense_without_stresses`]).
+    ///
+    /// # Errors
+    /// Those of the meshes and of `condense`.
+    pub fn build_by(
+        condense: impl Fn(&MeshedGear, Elastic) -> Result<(GearCompliance, MeshedFlank), ModelError> + Sync,
+        pair: &'a GearPair,
+        material: &PerGear<Elastic>,
+        line_load_n_per_mm: f64,
+        settings: &BodySettings,
+        announce: &dyn Fn(&str),
+    ) -> Result<Self, ModelError> {
         let meshed =
             PerGear::try_in_parallel(|gear| MeshedGear::new(pair, gear, material, line_load_n_per_mm, settings))?;
         if let Some(much) = much_memory(&meshed, 1.0)? {
             announce(&much);
         }
-        let gears = PerGear::try_in_parallel(|gear| meshed[gear].condense_with(pair, material[gear], false))?;
+        let gears = PerGear::try_in_parallel(|gear| condense(&meshed[gear], material[gear]))?;
         Ok(Self::new(pair, material, gears))
     }
 

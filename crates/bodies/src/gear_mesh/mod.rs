@@ -105,8 +105,8 @@ pub struct ToothElement {
     nodes: [u32; 8],
 }
 
-/// A flank with its tip rounding as a chain of nodes.
-#[derive(Debug, Clone, PartialEq, Default)]
+/// A flank with its tip rounding as a chain of nodes. Equal ones have the same bits, NaN included.
+#[derive(Debug, Clone, Default)]
 pub struct FlankChain {
     /// Ends and middles of elements alternately, from the end of the fillet to the tip circle.
     pub nodes: Vec<u32>,
@@ -171,6 +171,16 @@ impl ToothElement {
     /// Nodes, corners first.
     pub fn nodes(&self) -> &[u32] {
         &self.nodes[..self.kind.node_count()]
+    }
+}
+
+impl PartialEq for FlankChain {
+    fn eq(&self, other: &Self) -> bool {
+        let bits = |chain: &Self| chain.rho_mm.iter().map(|rho| rho.to_bits()).collect::<Vec<_>>();
+        self.nodes == other.nodes
+            && self.involute == other.involute
+            && self.resolved == other.resolved
+            && bits(self) == bits(other)
     }
 }
 

@@ -59,7 +59,7 @@ pub fn run(
     let CalibrationOfRuns { made, wall_s: calibration_s, why_none } = calibration(given, observer)?;
     let mut given = made.map_or_else(|| given.clone(), |made| given.calibrated(made));
     leave_out_stop(&mut given.resolved);
-    given.elements = KeptElements::of_last_run();
+    given.elements = KeptElements::up_to_gb(0.0);
     let (resolved, made) = (&given.resolved, given.files.calibration.as_ref());
     let calibrated: Vec<MatchCriterion> = made.map_or_else(Vec::new, |made| made.foundation.keys().copied().collect());
     let selection = Selection::new(resolved, asked, &calibrated, &why_none);

@@ -212,11 +212,11 @@ impl Adaptive {
     ) -> Result<f64, R::Error> {
         let (state, slope) = start;
         let probe = PROBE * self.tolerance_at(state);
-        if self.radius.value().is_none() {
+        if self.radius.bound(false).is_none() {
             self.counts.probes += self.radius.estimate(rate, start, probe)?;
             self.age = 0;
         }
-        let fastest = self.radius.value().filter(|radius| radius.is_finite()).unwrap_or_default();
+        let fastest = self.radius.bound(rate.is_steep()).filter(|radius| radius.is_finite()).unwrap_or_default();
         let stages = stages_for(*length * fastest).unwrap_or_else(|| {
             *length = stability_bound(MOST_STAGES) / fastest;
             MOST_STAGES

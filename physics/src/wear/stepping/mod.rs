@@ -77,6 +77,11 @@ pub trait Rate {
         self.evaluate(state, rate)
     }
 
+    /// Whether the rate may change by more than itself over depths as small as errors may be, as severe wear does.
+    fn is_steep(&self) -> bool {
+        false
+    }
+
     /// Size of a row of depths, such as the error of a step, mm.
     fn size(&self, row: &[f64]) -> f64 {
         greatest(row)
