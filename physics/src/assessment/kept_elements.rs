@@ -66,11 +66,16 @@ impl KeptElements {
         let condense = |meshed: &MeshedGear, own: Elastic| {
             let new = || meshed.condense_without_stresses(pair, own);
             let Some(kept) = &self.0 else { return new() };
-            // Nothing is half changed where another thread panics. Runs on other threads go on while a gear is condensed: one that wants the same finds
-            // the same bits.
+            // Nothing is half changed where another thread panics.
             let locked = || kept.lock().unwrap_or_else(PoisonError::into_inner);
             let found = locked().find(meshed, own);
-            found.map_or_else(|| Ok(locked().keep(meshed, own, new()?)), Ok)
+            if let Some(condensed) = found {
+                return Ok(condensed);
+            }
+            // Not locked meanwhile: this thread may take over other work while it waits, and runs on other threads go on. One that wants the same gear
+            // finds the same bits.
+            let condensed = new()?;
+            Ok(locked().keep(meshed, own, condensed))
         };
         CondensedPair::build_by(condense, pair, material, line_load_n_per_mm, bodies, announce)
     }
