@@ -75,7 +75,8 @@ impl KeptElements {
             // Not locked meanwhile: this thread may take over other work while it waits, and runs on other threads go on. One that wants the same gear
             // finds the same bits.
             let condensed = new()?;
-            Ok(locked().keep(meshed, own, condensed))
+            locked().keep(KeptGear { meshed: meshed.clone(), material: own, condensed: condensed.clone() });
+            Ok(condensed)
         };
         CondensedPair::build_by(condense, pair, material, line_load_n_per_mm, bodies, announce)
     }
@@ -91,25 +92,18 @@ impl KeptGears {
         Some(condensed)
     }
 
-    /// Keeps a gear that was condensed of this mesh and material, and returns it.
-    fn keep(
-        &mut self,
-        meshed: &MeshedGear,
-        material: Elastic,
-        condensed: (GearCompliance, MeshedFlank),
-    ) -> (GearCompliance, MeshedFlank) {
-        if self.find(meshed, material).is_none() {
-            self.gears.push(KeptGear { meshed: meshed.clone(), material, condensed: condensed.clone() });
+    /// Keeps a gear, unless another run has left the same one meanwhile.
+    fn keep(&mut self, gear: KeptGear) {
+        if self.find(&gear.meshed, gear.material).is_none() {
+            self.gears.push(gear);
         }
-        let mut left_gb = self.most_gb;
-        let mut newer = PerGear { pinion: 0, wheel: 0 };
-        let mut stays: Vec<bool> = Vec::new();
-        for kept in self.gears.iter().rev() {
-            left_gb -= kept.meshed.condensed_gb();
-            stays.push(newer[kept.meshed.gear] == 0 || left_gb >= 0.0);
-            newer[kept.meshed.gear] += 1;
+        while self.gears.iter().map(|kept| kept.meshed.condensed_gb()).sum::<f64>() > self.most_gb {
+            let has_newer = |&at: &usize| {
+                let newer = &self.gears[at + 1..];
+                newer.iter().any(|newer| newer.meshed.gear == self.gears[at].meshed.gear)
+            };
+            let Some(oldest) = (0..self.gears.len()).find(has_newer) else { break };
+            self.gears.remove(oldest);
         }
-        self.gears.retain(|_| stays.pop() != Some(false));
-        condensed
     }
 }

@@ -356,3 +356,23 @@ impl BesideNode {
         loaded.flat_map(move |(node, part)| [(2 * node, part * normal.x), (2 * node + 1, part * normal.y)])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Feet of an arc on a polyline that runs against it are those found by bisection, wherever the search begins; beyond both ends too.
+    #[test]
+    fn ver_feet_are_found_from_any_other() {
+        let master: Vec<(usize, Vector2<f64>)> =
+            (0..9).map(|k| (k, Vector2::new(0.3 * f64::from(k as i32 - 4), 0.01))).collect();
+        for angle_rad in (-20..=20).map(|k| 0.1 * f64::from(k)) {
+            let (point, normal) =
+                (Vector2::new(angle_rad, -0.1 * angle_rad * angle_rad), Vector2::new(0.1 * angle_rad, 1.0));
+            let bisected = master.partition_point(|(_, place)| (place - point).perp(&normal) < 0.0);
+            for near in 0..=master.len() {
+                assert_eq!(node_after_foot(near, &master, point, normal), bisected, "{angle_rad} from {near}");
+            }
+        }
+    }
+}

@@ -176,11 +176,13 @@ impl ToothElement {
 
 impl PartialEq for FlankChain {
     fn eq(&self, other: &Self) -> bool {
-        let bits = |chain: &Self| chain.rho_mm.iter().map(|rho| rho.to_bits()).collect::<Vec<_>>();
+        fn bits(chain: &FlankChain) -> impl Iterator<Item = u64> {
+            chain.rho_mm.iter().map(|rho| rho.to_bits())
+        }
         self.nodes == other.nodes
             && self.involute == other.involute
             && self.resolved == other.resolved
-            && bits(self) == bits(other)
+            && bits(self).eq(bits(other))
     }
 }
 
