@@ -68,8 +68,7 @@ impl KeptElements {
             let Some(kept) = &self.0 else { return new() };
             // Nothing is half changed where another thread panics.
             let locked = || kept.lock().unwrap_or_else(PoisonError::into_inner);
-            let found = locked().find(meshed, own);
-            if let Some(condensed) = found {
+            if let Some(condensed) = locked().find_or_make_room(meshed, own) {
                 return Ok(condensed);
             }
             // Not locked meanwhile: this thread may take over other work while it waits, and runs on other threads go on. One that wants the same gear
@@ -83,9 +82,12 @@ impl KeptElements {
 }
 
 impl KeptGears {
-    /// The gear condensed of this mesh and material, which is the one asked for last then.
-    fn find(&mut self, meshed: &MeshedGear, material: Elastic) -> Option<(GearCompliance, MeshedFlank)> {
-        let at = self.gears.iter().position(|kept| kept.material == material && kept.meshed == *meshed)?;
+    /// The gear condensed of this mesh and material, which is the one asked for last then; where there is none, room for it.
+    fn find_or_make_room(&mut self, meshed: &MeshedGear, material: Elastic) -> Option<(GearCompliance, MeshedFlank)> {
+        let Some(at) = self.gears.iter().position(|kept| kept.material == material && kept.meshed == *meshed) else {
+            self.make_room(meshed);
+            return None;
+        };
         let kept = self.gears.remove(at);
         let condensed = kept.condensed.clone();
         self.gears.push(kept);
@@ -94,13 +96,18 @@ impl KeptGears {
 
     /// Keeps a gear, unless another run has left the same one meanwhile.
     fn keep(&mut self, gear: KeptGear) {
-        if self.find(&gear.meshed, gear.material).is_none() {
+        if self.find_or_make_room(&gear.meshed, gear.material).is_none() {
             self.gears.push(gear);
         }
-        while self.gears.iter().map(|kept| kept.meshed.condensed_gb()).sum::<f64>() > self.most_gb {
+    }
+
+    /// Drops gears, those not asked for longest first, until there is room for the `coming` one, or only the last of its mate is left.
+    fn make_room(&mut self, coming: &MeshedGear) {
+        let gb = |gears: &[KeptGear]| gears.iter().map(|kept| kept.meshed.condensed_gb()).sum::<f64>();
+        while gb(&self.gears) + coming.condensed_gb() > self.most_gb {
             let has_newer = |&at: &usize| {
-                let newer = &self.gears[at + 1..];
-                newer.iter().any(|newer| newer.meshed.gear == self.gears[at].meshed.gear)
+                let gear = self.gears[at].meshed.gear;
+                gear == coming.gear || self.gears[at + 1..].iter().any(|newer| newer.meshed.gear == gear)
             };
             let Some(oldest) = (0..self.gears.len()).find(has_newer) else { break };
             self.gears.remove(oldest);

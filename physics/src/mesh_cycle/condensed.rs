@@ -529,6 +529,7 @@ impl CondensedPosition {
                     sliding_mm: &contact.sliding_mm,
                     conditions,
                     lambda: lambdas[gear],
+                    is_continuous: true,
                 };
                 rows.depth_mm.clear();
                 rows.depth_mm.resize(contact.len(), 0.0);

@@ -119,6 +119,7 @@ impl WornPoints {
                 sliding_mm: &sweep.sliding_mm,
                 conditions,
                 lambda: lambdas[gear],
+                is_continuous: false,
             };
             wear.laws[gear].add_depth(&row, &mut depth_mm[gear][points]);
         }

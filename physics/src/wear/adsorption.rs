@@ -88,7 +88,13 @@ mod tests {
         let stays = 3e-12 * (48e3 / (8.314_462_618 * 393.15_f64)).exp();
         let expected = 1e-7 * 1000.0 * (1.0 - (-3e-7 / (250.0 * stays)).exp()) * 0.5;
         let mut depth = [0.0];
-        let row = SlidingRow { pressure_mpa: &[1000.0], sliding_mm: &[0.5], conditions: Some(&[own]), lambda: None };
+        let row = SlidingRow {
+            pressure_mpa: &[1000.0],
+            sliding_mm: &[0.5],
+            conditions: Some(&[own]),
+            lambda: None,
+            is_continuous: false,
+        };
         WithFactors::none(law).add_depth(&row, &mut depth);
         assert!((depth[0] / expected - 1.0).abs() < 1e-12, "{} {expected}", depth[0]);
     }

@@ -41,6 +41,7 @@ mod tests {
             sliding_mm: &[0.7; 3],
             conditions: None,
             lambda: None,
+            is_continuous: false,
         };
         law.add_depth(&row, &mut depth);
         let expected = [1e-11 * 1000.0 * 0.7, 1e-11 * 2000.0 * 0.7, 1e-9 * 2001.0 * 0.7];

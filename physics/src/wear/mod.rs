@@ -64,7 +64,7 @@ pub(crate) trait LawConstants {
     fn typical(&self) -> Vec<&'static str>;
 }
 
-/// Pressure, sliding and conditions of consecutive points of a flank at one loading position, in rows of the same length.
+/// Pressure, sliding and conditions of points of a flank at one loading position, in rows of the same length.
 #[derive(Debug, Clone, Copy)]
 pub struct SlidingRow<'a> {
     /// Pressure on each, MPa.
@@ -75,6 +75,8 @@ pub struct SlidingRow<'a> {
     pub conditions: Option<&'a [ContactConditions]>,
     /// λ, where the coefficient depends on it.
     pub lambda: Option<Lambda<'a>>,
+    /// Whether the points are cells of one contact, between which pressure is linear; otherwise each has a pressure of its own, as the mean on its course.
+    pub is_continuous: bool,
 }
 
 /// λ of the points of a row.
@@ -132,7 +134,11 @@ impl<L: WearLaw> WithFactors<L> {
         for (index, (depth, (&pressure_mpa, &sliding_mm))) in points.enumerate() {
             let (lambda, thin) = film(index);
             let at = LocalContact { pressure_mpa, conditions: conditions.map(|row| row[index]), lambda };
-            let factor = thin * self.severe.as_ref().map_or(1.0, |severe| severe.factor_at(pressure_mpa));
+            let factor = thin
+                * self.severe.as_ref().map_or(1.0, |severe| match row.is_continuous {
+                    true => severe.mean_factor(row.pressure_mpa, index),
+                    false => severe.factor_at(pressure_mpa),
+                });
             *depth += factor * self.law.coefficient_mm2_per_n(&at) * pressure_mpa * sliding_mm;
         }
     }
@@ -316,7 +322,13 @@ mod tests {
     #[test]
     fn ver_a_law_sees_pressure_and_film_of_its_own_point() {
         let (pressure, sliding, lambda) = ([100.0, 400.0, 900.0], [0.7, 0.5, 0.3], [0.0, 0.5, 1.0]);
-        let row = SlidingRow { pressure_mpa: &pressure, sliding_mm: &sliding, conditions: None, lambda: None };
+        let row = SlidingRow {
+            pressure_mpa: &pressure,
+            sliding_mm: &sliding,
+            conditions: None,
+            lambda: None,
+            is_continuous: false,
+        };
         let film = FilmDependence { ratio: FilmRatio::Composite, lambda: vec![0.0, 2.0], factor: vec![1.0, 0.0] };
         let (dry, oiled) = (WithFactors::none(Power), WithFactors { law: Power, severe: None, film: Some(film) });
         let of_each = SlidingRow { lambda: Some(Lambda::OfEach(&lambda)), ..row };

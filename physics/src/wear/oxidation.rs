@@ -118,8 +118,13 @@ mod tests {
         let law = Oxidation { coefficient_mm2_per_n: 1.5e-4, constants };
         let own = ContactConditions { sliding_speed_mm_per_s, temperature_k: 573.15 };
         let mut depth = [0.0];
-        let row =
-            SlidingRow { pressure_mpa: &[1000.0], sliding_mm: &[sliding_mm], conditions: Some(&[own]), lambda: None };
+        let row = SlidingRow {
+            pressure_mpa: &[1000.0],
+            sliding_mm: &[sliding_mm],
+            conditions: Some(&[own]),
+            lambda: None,
+            is_continuous: false,
+        };
         WithFactors::none(law).add_depth(&row, &mut depth);
         depth[0]
     }

@@ -313,7 +313,8 @@ impl Batch {
                 self.lambda.extend(places.iter().map(|place| films.lambda(place)));
                 Lambda::OfEach(&self.lambda)
             });
-            wear.laws[gear].add_depth(&SlidingRow { pressure_mpa: pressure, sliding_mm, conditions, lambda }, depth);
+            let row = SlidingRow { pressure_mpa: pressure, sliding_mm, conditions, lambda, is_continuous: false };
+            wear.laws[gear].add_depth(&row, depth);
         }
     }
 
