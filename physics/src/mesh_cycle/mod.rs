@@ -317,12 +317,12 @@ fn note_figures(flanks: Flanks<'_>, position_mm: f64, contact: &dyn PairContact,
     }
 }
 
-/// Pressure up to which positions of these pressures keep their wear over the stages of a step, MPa; `None` where none does: without a severe one
-/// among them they have nothing to wait for, and where most are severe they save little.
+/// Pressure up to which positions of these pressures keep their wear over the stages of a step, MPa; `None` where all are above it, and where none is:
+/// without a severe one among them they have nothing to wait for.
 fn kept_wear_to_mpa(wear: &WearModel<'_>, pressures_mpa: impl Iterator<Item = f64>) -> Option<f64> {
     let mild_mpa = wear.surely_mild_mpa()?;
     let (severe, all) = pressures_mpa.fold((0, 0), |(severe, all), at| (severe + usize::from(at > mild_mpa), all + 1));
-    (severe > 0 && 2 * severe < all).then_some(mild_mpa)
+    (severe > 0 && severe < all).then_some(mild_mpa)
 }
 
 /// Least and greatest of `values_mm`.
