@@ -317,12 +317,16 @@ fn note_figures(flanks: Flanks<'_>, position_mm: f64, contact: &dyn PairContact,
     }
 }
 
-/// Pressure up to which positions of these pressures keep their wear over the stages of a step, MPa; `None` where all are above it, and where none is:
-/// without a severe one among them they have nothing to wait for.
+/// Pressure up to which positions of these pressures keep their wear over the stages of a step, MPa; `None` where all under load are above it, and where
+/// none is: without a severe one among them they have nothing to wait for.
 fn kept_wear_to_mpa(wear: &WearModel<'_>, pressures_mpa: impl Iterator<Item = f64>) -> Option<f64> {
     let mild_mpa = wear.surely_mild_mpa()?;
-    let (severe, all) = pressures_mpa.fold((0, 0), |(severe, all), at| (severe + usize::from(at > mild_mpa), all + 1));
-    (severe > 0 && severe < all).then_some(mild_mpa)
+    let (mut is_any_mild, mut is_any_severe) = (false, false);
+    for at_mpa in pressures_mpa.filter(|at_mpa| *at_mpa > 0.0) {
+        is_any_severe |= at_mpa > mild_mpa;
+        is_any_mild |= at_mpa <= mild_mpa;
+    }
+    (is_any_mild && is_any_severe).then_some(mild_mpa)
 }
 
 /// Least and greatest of `values_mm`.
