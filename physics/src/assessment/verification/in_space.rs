@@ -42,7 +42,7 @@ const OF_HALF_PLANES: ReferenceUncertainty = ReferenceUncertainty {
     profile: 0.03,
     peak: 0.02,
     tip_edge: 0.06,
-    transmission_error: 0.01,
+    transmission_error: [0.01, 0.01],
     pressure: 0.03,
     flank_pressure: [0.03, 0.03],
 };

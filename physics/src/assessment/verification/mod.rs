@@ -360,6 +360,7 @@ impl<'a> RunComparison<'a> {
             _ => [peak, None],
         };
         let [new, worn] = uncertainty.flank_pressure;
+        let [of_new, of_worn] = uncertainty.transmission_error;
         let total = TotalError {
             profile: per_gear(|gear| self.profile(gear)),
             peak_wear: per_gear(|gear| {
@@ -367,9 +368,11 @@ impl<'a> RunComparison<'a> {
                 Some(off.max(self.beyond_at_kinks(gear)) + uncertainty.peak)
             }),
             tip_edge_wear: per_gear(|gear| self.tip_edge_wear(gear)),
-            transmission_error_peak_to_peak: self.transmission_error(|outcome| outcome.worn.cycle.peak_to_peak_mm()),
-            transmission_error_peak_to_peak_new: self.transmission_error(|outcome| outcome.new.cycle.peak_to_peak_mm()),
-            transmission_error_over_life: self.transmission_error(|outcome| outcome.worn.over_life.mean_mm()),
+            transmission_error_peak_to_peak: self
+                .transmission_error(of_worn, |outcome| outcome.worn.cycle.peak_to_peak_mm()),
+            transmission_error_peak_to_peak_new: self
+                .transmission_error(of_new, |outcome| outcome.new.cycle.peak_to_peak_mm()),
+            transmission_error_over_life: self.transmission_error(of_worn, |outcome| outcome.worn.over_life.mean_mm()),
             pressure_between_tips: pressure(self.model, &self.run.worn.cycle, &outcome.worn.cycle)
                 .map(|off| off + uncertainty.pressure),
             flank_pressure: ErrorNewAndWorn {
@@ -398,11 +401,10 @@ impl<'a> RunComparison<'a> {
         (whole > 0.0).then(|| (integral_of_squares(grid, off) / whole).sqrt() + self.reference.uncertainty.profile)
     }
 
-    /// Error of a figure of the transmission error.
-    fn transmission_error(&self, mm: impl Fn(&Outcome) -> f64) -> Option<f64> {
-        let ReferenceRun { outcome, uncertainty, extrapolation, .. } = self.reference;
-        relative(mm(self.run), mm(outcome))
-            .map(|off| extrapolation.transmission_error * off + uncertainty.transmission_error)
+    /// Error of a figure of the transmission error, of which the reference has this uncertainty.
+    fn transmission_error(&self, uncertainty: f64, mm: impl Fn(&Outcome) -> f64) -> Option<f64> {
+        let ReferenceRun { outcome, extrapolation, .. } = self.reference;
+        relative(mm(self.run), mm(outcome)).map(|off| extrapolation.transmission_error * off + uncertainty)
     }
 
     /// Relative difference of the greatest wear of the active profile.
