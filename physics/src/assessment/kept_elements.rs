@@ -105,11 +105,11 @@ impl KeptGears {
     fn make_room(&mut self, coming: &MeshedGear) {
         let gb = |gears: &[KeptGear]| gears.iter().map(|kept| kept.meshed.condensed_gb()).sum::<f64>();
         while gb(&self.gears) + coming.condensed_gb() > self.most_gb {
-            let has_newer = |&at: &usize| {
+            let may_go = |&at: &usize| {
                 let gear = self.gears[at].meshed.gear;
                 gear == coming.gear || self.gears[at + 1..].iter().any(|newer| newer.meshed.gear == gear)
             };
-            let Some(oldest) = (0..self.gears.len()).find(has_newer) else { break };
+            let Some(oldest) = (0..self.gears.len()).find(may_go) else { break };
             self.gears.remove(oldest);
         }
     }

@@ -75,7 +75,7 @@ pub struct SlidingRow<'a> {
     pub conditions: Option<&'a [ContactConditions]>,
     /// λ, where the coefficient depends on it.
     pub lambda: Option<Lambda<'a>>,
-    /// Whether the points are cells of one contact, between which pressure is linear; otherwise each has a pressure of its own, as the mean on its course.
+    /// Whether the points are the cells of one contact, one after another, between which pressure is linear; otherwise each has a pressure of its own, as the mean on its course.
     pub is_continuous: bool,
 }
 

@@ -261,6 +261,7 @@ fn ver_severe_wear_takes_few_evaluations_on_finite_elements() {
     }
     let (error, gear, place) = difference_um(&loose, &usual);
     println!("{error:.4} µm at {gear:?} {place}");
+    assert!(error <= 0.5, "{error} µm at {gear:?} {place}");
     assert!(usual.steps.accepted < 200, "{:?}", usual.steps);
     assert!(5 * loose.steps.accepted < 3 * usual.steps.accepted, "{:?}, {:?}", usual.steps, loose.steps);
 }

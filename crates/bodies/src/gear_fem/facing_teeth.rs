@@ -113,9 +113,7 @@ pub(super) struct FacingTeeth {
     pub pinion_axis_mm: Vector2<f64>,
     /// Whether the window ends within both flanks towards the slave's tip, towards its root.
     pub inner_ends: (bool, bool),
-    /// Rows from tip to root.
-    pub from_tip: Vec<usize>,
-    /// Distance of these rows from the slave's tip end, mm.
+    /// Distance of the rows, which run from tip to root, from the slave's tip end, mm.
     along_mm: Vec<f64>,
     /// Hertz half-width of contact under the whole load.
     pub half_width_mm: f64,
@@ -195,10 +193,7 @@ impl CondensedPair<'_> {
         if fine.is_empty() {
             return None;
         }
-        let coupling = match window.shares_multipliers {
-            true => fine.grouped(&self.groups(&fine, placed)),
-            false => fine,
-        };
+        let coupling = fine.grouped(&self.groups(&fine, placed, window.shares_multipliers));
         // Where the master itself ends there are no rows that the window could cut off; from the slave's tip to its root the master runs towards its tip.
         let mate = &edges[master];
         let mate_ends = (mate.end == self.flanks[master].surface.edges.len(), mate.start == 0);
@@ -210,10 +205,7 @@ impl CondensedPair<'_> {
             own.start > 0 && (has_row_on(own.start) || !mate_ends.0),
             own.end < self.flanks[slave].surface.edges.len() && (has_row_on(own.end - 1) || !mate_ends.1),
         );
-        let row_mm: Vec<f64> = coupling.nodes.iter().map(|&node| self.flanks[slave].from_tip_mm[node]).collect();
-        let mut from_tip: Vec<usize> = (0..coupling.len()).collect();
-        from_tip.sort_by(|&a, &b| row_mm[a].total_cmp(&row_mm[b]));
-        let along_mm = from_tip.iter().map(|&row| row_mm[row]).collect();
+        let along_mm = coupling.nodes.iter().map(|&node| self.flanks[slave].from_tip_mm[node]).collect();
         let of_master = turned(&coupling.master, turn.inverse());
         let operator = match slave {
             Gear::Pinion => PerGear { pinion: coupling.slave.clone(), wheel: of_master },
@@ -232,14 +224,13 @@ impl CondensedPair<'_> {
             inner_ends,
             along_mm,
             half_width_mm: placed.half_width_mm,
-            from_tip,
             first_row: 0,
         })
     }
 
     /// Rows of `fine` that share a multiplier, from tip to root: put together outwards from the expected contact, so that they are the same in wider
-    /// windows of the same kind.
-    fn groups(&self, fine: &MortarCoupling, placed: &PlacedTeeth) -> Vec<Vec<usize>> {
+    /// windows of the same kind; each alone where none `share` one.
+    fn groups(&self, fine: &MortarCoupling, placed: &PlacedTeeth, share: bool) -> Vec<Vec<usize>> {
         let far_mm = |row: usize| self.flanks[placed.slave].from_tip_mm[fine.nodes[row]] - placed.expected_mm;
         let mut rows: Vec<usize> = (0..fine.len()).collect();
         rows.sort_by(|&a, &b| far_mm(a).total_cmp(&far_mm(b)));
@@ -257,7 +248,7 @@ impl CondensedPair<'_> {
             for row in rows {
                 let here_mm = far_mm(row).abs();
                 match groups.last_mut() {
-                    Some(group) if here_mm - begins_mm < length_mm(row) => group.push(row),
+                    Some(group) if share && here_mm - begins_mm < length_mm(row) => group.push(row),
                     _ => {
                         groups.push(vec![row]);
                         begins_mm = here_mm;
@@ -383,14 +374,13 @@ impl FacingTeeth {
     /// load of their contact, farther off the mean over a half-width to either side. Loaded rows farther apart than a half-width are two
     /// contacts. Without load nothing is set.
     pub(super) fn set_mean_tilts(&self, force: &[f64], tilt_rad: impl Fn(usize) -> f64, of_rows: &mut [f64]) {
-        let tilt_rad: Vec<f64> = self.from_tip.iter().map(|&row| tilt_rad(self.coupling.nodes[row])).collect();
+        let tilt_rad: Vec<f64> = self.coupling.nodes.iter().map(|&node| tilt_rad(node)).collect();
         let contacts = self.contacts(force, &tilt_rad);
         if contacts.is_empty() {
             return;
         }
         let ([mut from, mut to], mut sum) = ([0, 0], 0.0);
-        for (at, row) in self.from_tip.iter().enumerate() {
-            let here_mm = self.along_mm[at];
+        for (row, &here_mm) in self.along_mm.iter().enumerate() {
             while to < self.along_mm.len() && self.along_mm[to] <= here_mm + self.half_width_mm {
                 sum += tilt_rad[to];
                 to += 1;
@@ -413,8 +403,7 @@ impl FacingTeeth {
     /// Loaded rows from tip to root, with the tilts of all rows.
     fn contacts(&self, force: &[f64], tilt_rad: &[f64]) -> Vec<LoadedRows> {
         let mut contacts: Vec<LoadedRows> = Vec::new();
-        for (at, row) in self.from_tip.iter().enumerate() {
-            let force = force[self.first_row + row];
+        for (at, &force) in force[self.first_row..][..self.along_mm.len()].iter().enumerate() {
             if force <= 0.0 {
                 continue;
             }
@@ -432,9 +421,10 @@ impl FacingTeeth {
 
     /// Whether load comes close to an end of the window within the flank, so that it may have been cut off.
     pub(super) fn is_cramped(&self, force: &[f64]) -> bool {
-        let is_loaded = |row: &usize| force[self.first_row + row] > 0.0;
-        (self.inner_ends.0 && self.from_tip.iter().take(FREE_ROWS).any(is_loaded))
-            || (self.inner_ends.1 && self.from_tip.iter().rev().take(FREE_ROWS).any(is_loaded))
+        let force = &force[self.first_row..][..self.along_mm.len()];
+        let is_loaded = |force: &f64| *force > 0.0;
+        (self.inner_ends.0 && force.iter().take(FREE_ROWS).any(is_loaded))
+            || (self.inner_ends.1 && force.iter().rev().take(FREE_ROWS).any(is_loaded))
     }
 }
 
@@ -446,4 +436,32 @@ pub(super) fn turned(operator: &CsMat<f64>, turn: Rotation2<f64>) -> CsMat<f64> 
         entries.copy_from_slice(image.as_slice());
     }
     turned
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gear_fem::tilted::tests::{condensed_fzg_a, fzg_a};
+
+    /// Rows run from tip to root, so that a row and the next are neighbours, whether rows share multipliers or not.
+    #[test]
+    fn rows_run_from_tip_to_root() {
+        let pair = fzg_a();
+        let model = condensed_fzg_a(&pair);
+        let rows = [true, false].map(|shares_multipliers| {
+            let window = SearchWindow {
+                beside: 0,
+                line_load_n_per_mm: 300.0,
+                half_widths: 3.0,
+                reach_mm: 0.1,
+                overlaps: Vec::new(),
+                shares_multipliers,
+            };
+            let facings = model.facings(&model.placed_teeth(pair.path.pitch_point_mm, &window), &window);
+            let facing = facings.first().expect("the reference pair touches at the pitch point");
+            assert!(facing.along_mm.windows(2).all(|two| two[0] < two[1]), "{:?}", facing.along_mm);
+            facing.along_mm.len()
+        });
+        assert!(5 < rows[0] && rows[0] <= rows[1], "{rows:?}");
+    }
 }

@@ -124,7 +124,7 @@ impl PreparedPosition {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::gear::GearPair;
     use crate::gear::modification::Modification;
@@ -133,7 +133,7 @@ mod tests {
     use gearwear_fem::elastic::Elastic;
 
     /// FZG type A gears with sharp tips (DIN 51354-1).
-    fn fzg_a() -> GearPair {
+    pub(in crate::gear_fem) fn fzg_a() -> GearPair {
         let gears = PerGear { pinion: (16, 0.8635), wheel: (24, -0.5103) }.map(|(teeth, profile_shift)| GearSpec {
             teeth,
             profile_shift,
@@ -159,21 +159,28 @@ mod tests {
         GearPair::new(&spec).expect("the pair of the test exists")
     }
 
+    const STEEL: Elastic = Elastic { young_modulus_mpa: 206e3, poisson_ratio: 0.3 };
+
+    /// Both gears of steel, under 300 N/mm, with two elements in a half-width.
+    pub(in crate::gear_fem) fn condensed_fzg_a(pair: &GearPair) -> CondensedPair<'_> {
+        let clamp_radius_mm = PerGear::from_fn(|gear| {
+            default_clamp(pair.teeth[gear].root_radius_mm, pair.spec.normal_module_mm).radius_mm
+        });
+        let settings = BodySettings::rings(clamp_radius_mm, 2.0);
+        let material = PerGear { pinion: STEEL, wheel: STEEL };
+        let model = CondensedPair::build(pair, &material, 300.0, &settings, &|_| {});
+        model.expect("the pair of the test can be condensed")
+    }
+
     /// Tilting gives the compliance B(θ) C B(θ)ᵀ of the tilted coupling, C being that of the teeth by their cuts, also of a softer gear; what cuts carry
     /// is spanned by few shapes.
     #[test]
     fn the_compliance_is_that_of_the_tilted_coupling() {
         let pair = fzg_a();
-        let clamp_radius_mm = PerGear::from_fn(|gear| {
-            default_clamp(pair.teeth[gear].root_radius_mm, pair.spec.normal_module_mm).radius_mm
-        });
-        let settings = BodySettings::rings(clamp_radius_mm, 2.0);
-        let steel = Elastic { young_modulus_mpa: 206e3, poisson_ratio: 0.3 };
-        let material = PerGear { pinion: steel, wheel: steel };
         let line_load_n_per_mm = 300.0;
-        let model = CondensedPair::build(&pair, &material, line_load_n_per_mm, &settings, &|_| {});
-        let soft = PerGear { pinion: Elastic { young_modulus_mpa: 2e3, ..steel }, wheel: steel };
-        let model = model.expect("the pair of the test can be condensed").with_moduli(&material, &soft);
+        let material = PerGear { pinion: STEEL, wheel: STEEL };
+        let soft = PerGear { pinion: Elastic { young_modulus_mpa: 2e3, ..STEEL }, wheel: STEEL };
+        let model = condensed_fzg_a(&pair).with_moduli(&material, &soft);
         let mut prepared = model.prepare(pair.path.start_mm + 2.0, line_load_n_per_mm);
         let tilt_rad: Vec<f64> = (0..prepared.along_rotation.len()).map(|row| 0.3 * (row as f64).sin()).collect();
         model.tilt(&mut prepared, tilt_rad.clone());
