@@ -15,14 +15,14 @@
 //!
 //! and the next estimate drops every member in tension and adds every other that penetrates. That is Newton's method for the
 //! nonsmooth equation f = max(0, f − c g), which converges in a few steps from a sensible start but may cycle. When
-//! the number of wrong signs has not fallen for some steps, one member at a time is exchanged (the last wrong one, by
-//! number), which cannot cycle, until the number has fallen.
+//! the number of wrong signs has not fallen for some steps, a dual method that cannot cycle takes over ([`dual`]).
 //!
 //! A solution on gaps that have hardly changed tries the active set of the last one first ([`Condensed::solve_again`]): it asks for the gaps of the members and
 //! of a few multipliers beside them alone, and is the whole solution unless the surfaces come to touch elsewhere.
 //!
-//! Source: M. Hintermüller, K. Ito and K. Kunisch, *SIAM J. Optim.* 13 (2003) 865–888; J. Júdice and F. Pires, *Comput.
-//! Oper. Res.* 21 (1994) 587–596 (block principal pivoting and its backup).
+//! Source: M. Hintermüller, K. Ito and K. Kunisch, *SIAM J. Optim.* 13 (2003) 865–888.
+
+mod dual;
 
 use faer::linalg::solvers::{Llt, Solve};
 use faer::{ColRef, Mat, MatRef, Side};
@@ -32,7 +32,7 @@ use crate::weighted_sum::weighted_sum;
 
 /// Multipliers to either side of an active one, by number, that a solution with the same active set watches.
 const WATCHED: usize = 4;
-/// Number of full exchanges without fewer wrong signs before single exchanges.
+/// Number of full exchanges without fewer wrong signs before the dual method.
 const PATIENCE: usize = 8;
 /// Greatest number of exchanges.
 const MOST_ITERATIONS: usize = 2000;
@@ -81,7 +81,7 @@ pub struct ActiveSetLog {
     pub steps: Vec<(usize, usize)>,
     /// Number of members that entered or left in all iterations.
     pub changes: usize,
-    /// Number of changes to single exchanges.
+    /// Number of changes to the dual method.
     pub cycles_broken: usize,
     /// Number of active sets factorised.
     pub factorisations: usize,
@@ -254,8 +254,8 @@ impl Condensed {
             _ => self.first_touch()?,
         };
         let mut log = ActiveSetLog::default();
-        let (mut fewest, mut patience, mut one_by_one) = (usize::MAX, PATIENCE, false);
-        for _ in 0..MOST_ITERATIONS {
+        let (mut fewest, mut patience) = (usize::MAX, PATIENCE);
+        while log.steps.len() < MOST_ITERATIONS {
             let trial = self.trial(&active, resistance, factored, &mut log)?;
             let wrong = self.wrong(&trial, &active);
             log.steps.push((active.iter().filter(|a| **a).count(), wrong.len()));
@@ -263,21 +263,21 @@ impl Condensed {
                 return self.finished(trial, active, log);
             }
             if wrong.len() < fewest {
-                (fewest, patience, one_by_one) = (wrong.len(), PATIENCE, false);
+                (fewest, patience) = (wrong.len(), PATIENCE);
             } else if patience > 0 {
                 patience -= 1;
-            } else if !one_by_one {
-                one_by_one = true;
-                log.cycles_broken += 1;
+            } else if log.cycles_broken == 0 {
+                log.cycles_broken = 1;
+                self.let_pulling_go(&mut active, resistance, factored, &mut log)?;
+                continue;
+            } else {
+                break;
             }
-            let exchanged = if one_by_one { &wrong[wrong.len() - 1..] } else { &wrong[..] };
-            log.changes += exchanged.len();
-            for &i in exchanged {
-                active[i] = !active[i];
-            }
+            log.changes += wrong.len();
+            wrong.into_iter().for_each(|i| active[i] = !active[i]);
         }
         let wrong = log.steps.last().map_or(0, |step| step.1);
-        Err(ActiveSetError::MaxIterations { iterations: MOST_ITERATIONS, wrong })
+        Err(ActiveSetError::MaxIterations { iterations: log.steps.len(), wrong })
     }
 
     fn finished(
@@ -364,13 +364,25 @@ impl Condensed {
             }
         };
         let set = &*factored.insert(set);
+        Ok(self.response(set, (&self.gap_mm, &self.rigid_load), resistance))
+    }
+
+    /// Forces and gaps per opening of the gap at a `member`, without loads.
+    fn by_opening(&self, set: &FactoredSet, member: usize, resistance: &[f64]) -> Trial {
+        let mut gap_mm = vec![0.0; self.gap_mm.len()];
+        gap_mm[member] = -1.0;
+        self.response(set, (&gap_mm, &vec![0.0; self.rigid_load.len()]), resistance)
+    }
+
+    /// Forces and gaps if the members of a set carry the loads `q` on initial gaps `gap_mm`.
+    fn response(&self, set: &FactoredSet, (gap_mm, q): (&[f64], &[f64]), resistance: &[f64]) -> Trial {
         let MemberForces { force: of_members, rigid: alpha, resistance: s, loose } =
-            self.member_forces(set, resistance);
-        let mut force = vec![0.0; active.len()];
+            self.member_forces(set, (gap_mm, q), resistance);
+        let mut force = vec![0.0; gap_mm.len()];
         set.members.iter().zip(&of_members).for_each(|(&member, own)| force[member] = *own);
-        let gap_mm = self.gaps_mm(set, &of_members, alpha.as_slice());
+        let gap_mm = self.gaps_mm(set, gap_mm, &of_members, alpha.as_slice());
         // S is symmetric, so that columns are rows.
-        Ok(Trial { force, gap_mm, rigid: alpha.iter().copied().collect(), resistance: s.data.into(), loose })
+        Trial { force, gap_mm, rigid: alpha.iter().copied().collect(), resistance: s.data.into(), loose }
     }
 
     /// Solves again with the active set of `found`, if the last solution with `kept` had that one too, and no sign is wrong among the members and the multipliers
@@ -378,7 +390,8 @@ impl Condensed {
     pub fn solve_again(&self, found: &mut ContactEquilibrium, kept: &ReusableFactor) -> bool {
         let Some(set) = kept.factored.as_ref().filter(|set| set.active == found.active) else { return false };
         let Some(Watched { rows, compliance, .. }) = &set.watched else { return false };
-        let MemberForces { force, rigid, loose, .. } = self.member_forces(set, &kept.resistance);
+        let MemberForces { force, rigid, loose, .. } =
+            self.member_forces(set, (&self.gap_mm, &self.rigid_load), &kept.resistance);
         let greatest_force = force.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
         // NaN is no force.
         let holds = force.iter().all(|f| *f >= -ROUND_OFF * greatest_force);
@@ -400,14 +413,14 @@ impl Condensed {
         true
     }
 
-    /// Forces if the members of a set carry the load.
-    fn member_forces(&self, set: &FactoredSet, resistance: &[f64]) -> MemberForces {
+    /// Forces if the members of a set carry the loads `q` on initial gaps `gap_mm`.
+    fn member_forces(&self, set: &FactoredSet, (gap_mm, q): (&[f64], &[f64]), resistance: &[f64]) -> MemberForces {
         let FactoredSet { members, factor, by_motion, .. } = set;
-        let m = self.rigid_load.len();
-        let mut by_gap: Vec<f64> = members.iter().map(|&member| -self.gap_mm[member]).collect();
+        let m = q.len();
+        let mut by_gap: Vec<f64> = members.iter().map(|&member| -gap_mm[member]).collect();
         solve_in_place(factor, &mut by_gap);
         let s = nalgebra::DMatrix::from_fn(m, m, |a, b| self.along_motion(a, members, column(by_motion.as_ref(), b)));
-        let load = nalgebra::DVector::from_fn(m, |a, _| self.along_motion(a, members, &by_gap) - self.rigid_load[a]);
+        let load = nalgebra::DVector::from_fn(m, |a, _| self.along_motion(a, members, &by_gap) - q[a]);
         let (alpha, loose) = held_motion(&s, &load, resistance);
         let mut force = by_gap;
         for (a, alpha) in alpha.iter().enumerate() {
@@ -416,13 +429,13 @@ impl Condensed {
         MemberForces { force, rigid: alpha, resistance: s, loose }
     }
 
-    /// Gaps under the forces of the members of a set and amplitudes of the rigid motions.
-    fn gaps_mm(&self, set: &FactoredSet, force: &[f64], amplitudes: &[f64]) -> Vec<f64> {
-        let mut gap_mm = vec![0.0; self.gap_mm.len()];
+    /// Gaps from `initial_mm` under the forces of the members of a set and amplitudes of the rigid motions.
+    fn gaps_mm(&self, set: &FactoredSet, initial_mm: &[f64], force: &[f64], amplitudes: &[f64]) -> Vec<f64> {
+        let mut gap_mm = vec![0.0; initial_mm.len()];
         let yields_mm = &set.others_compliance * ColRef::from_slice(force);
         for (&other, yields_mm) in set.others.iter().zip(yields_mm.iter()) {
             let by_motion = amplitudes.iter().enumerate().map(|(a, amplitude)| self.rigid[(other, a)] * amplitude);
-            gap_mm[other] = self.gap_mm[other] + yields_mm + by_motion.sum::<f64>();
+            gap_mm[other] = initial_mm[other] + yields_mm + by_motion.sum::<f64>();
         }
         gap_mm
     }

@@ -395,3 +395,25 @@ impl CycleObservation {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::wear::settings::{SevereTransition, WearSettings};
+
+    /// Mild positions wait for severe ones: not where all under load are alike, with or without others that carry nothing.
+    #[test]
+    fn wear_is_kept_beside_severe_wear_alone() {
+        let kept_mpa = |severe, pressures_mpa: &[f64]| {
+            let law = crate::wear::of(&WearSettings { severe, ..WearSettings::archard(1e-11) });
+            kept_wear_to_mpa(&WearModel::cold(law.as_ref()), pressures_mpa.iter().copied())
+        };
+        let severe = Some(SevereTransition { above_mpa: 1050.0, factor: 10.0, band_mpa: 100.0 });
+        for pressures_mpa in [&[][..], &[0.0, 900.0], &[0.0, 990.0, 1200.0]] {
+            assert_eq!(kept_mpa(severe, pressures_mpa), None, "{pressures_mpa:?}");
+        }
+        // 97 % of the pressure at which severe wear begins.
+        assert_eq!(kept_mpa(severe, &[1200.0, 0.0, 969.0, 1100.0]), Some(970.0));
+        assert_eq!(kept_mpa(None, &[1200.0, 900.0]), None);
+    }
+}

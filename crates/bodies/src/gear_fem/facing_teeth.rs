@@ -53,8 +53,6 @@ pub(super) struct SearchWindow {
     pub reach_mm: f64,
     /// Overlaps beside earlier windows, at most one of each tooth pair.
     pub overlaps: Vec<FlankOverlap>,
-    /// Whether rows away from tip edges share multipliers.
-    pub shares_multipliers: bool,
 }
 
 /// Overlap of the flanks of a tooth pair beside its window.
@@ -193,7 +191,7 @@ impl CondensedPair<'_> {
         if fine.is_empty() {
             return None;
         }
-        let coupling = fine.grouped(&self.groups(&fine, placed, window.shares_multipliers));
+        let coupling = fine.grouped(&self.groups(&fine, placed));
         // Where the master itself ends there are no rows that the window could cut off; from the slave's tip to its root the master runs towards its tip.
         let mate = &edges[master];
         let mate_ends = (mate.end == self.flanks[master].surface.edges.len(), mate.start == 0);
@@ -229,8 +227,8 @@ impl CondensedPair<'_> {
     }
 
     /// Rows of `fine` that share a multiplier, from tip to root: put together outwards from the expected contact, so that they are the same in wider
-    /// windows of the same kind; each alone where none `share` one.
-    fn groups(&self, fine: &MortarCoupling, placed: &PlacedTeeth, share: bool) -> Vec<Vec<usize>> {
+    /// windows.
+    fn groups(&self, fine: &MortarCoupling, placed: &PlacedTeeth) -> Vec<Vec<usize>> {
         let far_mm = |row: usize| self.flanks[placed.slave].from_tip_mm[fine.nodes[row]] - placed.expected_mm;
         let mut rows: Vec<usize> = (0..fine.len()).collect();
         rows.sort_by(|&a, &b| far_mm(a).total_cmp(&far_mm(b)));
@@ -248,7 +246,7 @@ impl CondensedPair<'_> {
             for row in rows {
                 let here_mm = far_mm(row).abs();
                 match groups.last_mut() {
-                    Some(group) if share && here_mm - begins_mm < length_mm(row) => group.push(row),
+                    Some(group) if here_mm - begins_mm < length_mm(row) => group.push(row),
                     _ => {
                         groups.push(vec![row]);
                         begins_mm = here_mm;
@@ -443,25 +441,24 @@ mod tests {
     use super::*;
     use crate::gear_fem::tilted::tests::{condensed_fzg_a, fzg_a};
 
-    /// Rows run from tip to root, so that a row and the next are neighbours, whether rows share multipliers or not.
+    /// Rows run from tip to root, so that a row and the next are neighbours.
     #[test]
     fn rows_run_from_tip_to_root() {
         let pair = fzg_a();
         let model = condensed_fzg_a(&pair);
-        let rows = [true, false].map(|shares_multipliers| {
-            let window = SearchWindow {
-                beside: 0,
-                line_load_n_per_mm: 300.0,
-                half_widths: 3.0,
-                reach_mm: 0.1,
-                overlaps: Vec::new(),
-                shares_multipliers,
-            };
-            let facings = model.facings(&model.placed_teeth(pair.path.pitch_point_mm, &window), &window);
-            let facing = facings.first().expect("the reference pair touches at the pitch point");
-            assert!(facing.along_mm.windows(2).all(|two| two[0] < two[1]), "{:?}", facing.along_mm);
-            facing.along_mm.len()
-        });
-        assert!(5 < rows[0] && rows[0] <= rows[1], "{rows:?}");
+        let window = SearchWindow {
+            beside: 0,
+            line_load_n_per_mm: 300.0,
+            half_widths: 3.0,
+            reach_mm: 0.1,
+            overlaps: Vec::new(),
+        };
+        let facings = model.facings(&model.placed_teeth(pair.path.pitch_point_mm, &window), &window);
+        let facing = facings.first().expect("the reference pair touches at the pitch point");
+        assert!(
+            5 < facing.along_mm.len() && facing.along_mm.windows(2).all(|two| two[0] < two[1]),
+            "{:?}",
+            facing.along_mm
+        );
     }
 }

@@ -108,7 +108,6 @@ impl<'a> CondensedPair<'a> {
             half_widths: FIRST_WINDOW,
             reach_mm: FIRST_REACH * line_load_n_per_mm / self.contact_modulus_mpa,
             overlaps: Vec::new(),
-            shares_multipliers: true,
         }
     }
 
@@ -162,10 +161,6 @@ impl<'a> CondensedPair<'a> {
                         Some(wider) => wider,
                         None => return Ok(ContactEquilibrium { log, ..found }),
                     }
-                }
-                // Multipliers of very unequal lengths may leave the active set in a circle.
-                Err(ActiveSetError::MaxIterations { .. }) if prepared.window.shares_multipliers && !last => {
-                    SearchWindow { shares_multipliers: false, ..prepared.window.clone() }
                 }
                 Err(error) if last || !prepared.misses_contact(&error) => return Err(error),
                 Err(_) => prepared.window.clone().longer().farther(),
