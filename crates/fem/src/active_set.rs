@@ -15,7 +15,7 @@
 //!
 //! and the next estimate drops every member in tension and adds every other that penetrates. That is Newton's method for the
 //! nonsmooth equation f = max(0, f − c g), which converges in a few steps from a sensible start but may cycle. When
-//! the number of wrong signs has not fallen for some steps, a dual method that cannot cycle takes over ([`dual`]).
+//! the number of wrong signs has not fallen for some steps, a dual method that cannot cycle takes over (module `dual`).
 //!
 //! A solution on gaps that have hardly changed tries the active set of the last one first ([`Condensed::solve_again`]): it asks for the gaps of the members and
 //! of a few multipliers beside them alone, and is the whole solution unless the surfaces come to touch elsewhere.
