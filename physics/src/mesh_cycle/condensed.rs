@@ -148,11 +148,9 @@ impl<'a> CondensedCycle<'a> {
         self.loaded_positions().count()
     }
 
-    /// Values at the nominal radii `radius_mm` from those at the nodes of `gear`'s flank: linear between the nodes, that of the last node
-    /// beyond it, and 0 below the first, where the involute ends.
+    /// Values at the nominal radii `radius_mm` from those at the nodes of `gear`'s flank, as by [`at_radii`].
     pub fn at_radii(&self, gear: Gear, at_nodes: &[f64], radius_mm: impl Iterator<Item = f64>) -> Vec<f64> {
-        let nodes = &self.radius_mm[gear];
-        radius_mm.map(|radius| if radius < nodes[0] { 0.0 } else { value_at(nodes, at_nodes, radius) }).collect()
+        at_radii(&self.radius_mm[gear], at_nodes, radius_mm)
     }
 
     fn loaded_positions(&self) -> impl Iterator<Item = &CondensedPosition> {
@@ -220,6 +218,17 @@ impl MeshCycle for CondensedCycle<'_> {
         Ok(Some(work.of_a_part()))
     }
 
+    fn linearise_anew(
+        &mut self,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Work>, EquilibriumError> {
+        let work = self.evaluate_by(|group, step| group.follow_tilt(step), lost, wear, depth_mm, stopped)?;
+        Ok((work.newton_iterations > 0).then_some(Work { mesh_cycles: 0, equilibria: 0, ..work }))
+    }
+
     fn reset(&mut self) {
         let (model, nodes) = (self.model, self.nodes.as_ref());
         self.groups.par_iter_mut().flat_map(|group| &mut group.loaded_positions).for_each(|loaded| {
@@ -243,20 +252,6 @@ impl MeshCycle for CondensedCycle<'_> {
 }
 
 impl CondensedCycle<'_> {
-    /// Makes positions anew where the last evaluation, on the same `lost`, found that the load acts in another direction, or on a tip edge worn to
-    /// another shape, than they were made for. In between they are linear in what is lost, and the rate of wear is smooth within a
-    /// step. Fills `depth_mm` with the wear of each point and returns the work; nothing where no position changes.
-    pub(crate) fn linearise_anew(
-        &mut self,
-        lost: LostMaterial<'_>,
-        wear: &WearModel<'_>,
-        depth_mm: &mut PerGear<Vec<f64>>,
-        stopped: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Option<Work>, EquilibriumError> {
-        let work = self.evaluate_by(|group, step| group.follow_tilt(step), lost, wear, depth_mm, stopped)?;
-        Ok((work.newton_iterations > 0).then_some(Work { mesh_cycles: 0, equilibria: 0, ..work }))
-    }
-
     /// Evaluates all groups by `part` on flanks that have lost `lost`, and collects their wear.
     fn evaluate_by(
         &mut self,
@@ -283,6 +278,12 @@ impl CondensedCycle<'_> {
         let step = WearEvaluation { model: self.model, worn, nodes: self.nodes.as_ref(), wear, stopped };
         self.groups.par_iter_mut().for_each(|group| part(group, &step));
     }
+}
+
+/// Values at the nominal radii `radius_mm` of a flank from those at its nodes, whose nominal radii are `nodes_mm`: linear between the nodes, that of the
+/// last node beyond it, and 0 below the first, where the involute ends.
+pub(crate) fn at_radii(nodes_mm: &[f64], at_nodes: &[f64], radius_mm: impl Iterator<Item = f64>) -> Vec<f64> {
+    radius_mm.map(|radius| if radius < nodes_mm[0] { 0.0 } else { value_at(nodes_mm, at_nodes, radius) }).collect()
 }
 
 /// Model, worn flanks and laws of an evaluation.

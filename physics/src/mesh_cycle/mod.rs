@@ -275,6 +275,19 @@ pub trait MeshCycle {
         Ok(None)
     }
 
+    /// Makes positions anew where the last evaluation, on the same `lost`, found that the load acts in another direction, or on a tip edge worn to
+    /// another shape, than they were made for. In between they are linear in what is lost, and the rate of wear is smooth within a
+    /// step. Fills `depth_mm` with the wear of each point and returns the work; nothing where no position changes.
+    fn linearise_anew(
+        &mut self,
+        _lost: LostMaterial<'_>,
+        _wear: &WearModel<'_>,
+        _depth_mm: &mut PerGear<Vec<f64>>,
+        _stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Work>, EquilibriumError> {
+        Ok(None)
+    }
+
     /// Returns to the state before any evaluation: the next one depends only on what the flanks have lost, to the bit.
     fn reset(&mut self);
 

@@ -1,12 +1,14 @@
 //! A pair with its wear: the state that the steps of a wear run change.
 //!
-//! Wear is kept at the flank points by most models ([`OnFlankPoints`]), at the nodes of the flanks by finite elements
-//! ([`OnFlankNodes`]), and at the contact points by the simplified model of helical gears ([`super::simplified`]).
+//! Wear is kept at the flank points by most models, at the nodes of the flanks by finite elements ([`OnFlankPlaces`]), and at the contact points by the
+//! simplified model of helical gears ([`super::simplified`]).
+
+use std::borrow::Cow;
 
 use super::CycleObservation;
 use super::local_means::LocalMeans;
 use crate::mesh_cycle::over_life::PeakToPeakOverLife;
-use crate::mesh_cycle::{LostMaterial, MeshCycle, Work, condensed::CondensedCycle, load_sharing::EquilibriumError};
+use crate::mesh_cycle::{LostMaterial, MeshCycle, Work, condensed::at_radii, load_sharing::EquilibriumError};
 use crate::wear::WearModel;
 use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_fem::weighted_sum::weighted_sum;
@@ -102,7 +104,7 @@ pub(crate) trait WearingPair {
         Ok(None)
     }
 
-    /// Makes the positions of a [`CondensedCycle`] anew ([`CondensedCycle::linearise_anew`]), after an evaluation on the same flanks.
+    /// Makes positions anew that are linear in what is lost ([`MeshCycle::linearise_anew`]), after an evaluation on the same flanks.
     fn linearise_anew(
         &mut self,
         _wear: &WearModel<'_>,
@@ -143,25 +145,64 @@ pub(crate) trait WearingPair {
     fn snapshot(&mut self, revolutions: f64) -> Result<Snapshot, EquilibriumError>;
 }
 
-/// Flanks as rows of points, slice after slice, that a mesh cycle wears.
-pub(crate) struct OnFlankPoints<'a> {
+/// Flanks as rows of places that a mesh cycle wears: flank points, slice after slice, or the nodes of finite elements.
+pub(crate) struct OnFlankPlaces<'a> {
     cycle: Box<dyn MeshCycle + 'a>,
     means: LocalMeans,
-    modification_mm: &'a PerGear<Vec<f64>>,
-    removed_mm: PerGear<Vec<f64>>,
+    /// What the places had lost before the first mesh, as far as the cycle knows nothing of it: modifications of flank points, deviations of measured
+    /// flanks at nodes.
+    before_mm: Cow<'a, PerGear<Vec<f64>>>,
+    /// That and the wear.
+    lost_mm: PerGear<Vec<f64>>,
     wear_mm: PerGear<Vec<f64>>,
     depth_mm: PerGear<Vec<f64>>,
+    /// The flank points where places are nodes.
+    between_nodes: Option<PointsBetweenNodes>,
 }
 
-impl<'a> OnFlankPoints<'a> {
-    /// Unworn flanks with their modifications.
+/// Flank points of flanks that wear at their nodes; values are interpolated.
+pub(crate) struct PointsBetweenNodes {
+    /// Nominal radii of the flank points.
+    pub radius_mm: PerGear<Vec<f64>>,
+    /// Nominal radii of the nodes, from root to tip.
+    pub node_radius_mm: PerGear<Vec<f64>>,
+    /// Length of the flank that each node stands for.
+    pub node_share_mm: PerGear<Vec<f64>>,
+}
+
+impl PointsBetweenNodes {
+    /// Values at the flank points, from those at the nodes.
+    fn values(&self, at_nodes: &PerGear<Vec<f64>>) -> PerGear<Vec<f64>> {
+        PerGear::from_fn(|gear| {
+            at_radii(&self.node_radius_mm[gear], &at_nodes[gear], self.radius_mm[gear].iter().copied())
+        })
+    }
+}
+
+impl<'a> OnFlankPlaces<'a> {
+    /// Unworn flanks that lost `before_mm` before the first mesh.
     pub(crate) fn new(
         cycle: Box<dyn MeshCycle + 'a>,
         means: LocalMeans,
-        modification_mm: &'a PerGear<Vec<f64>>,
+        before_mm: Cow<'a, PerGear<Vec<f64>>>,
+        between_nodes: Option<PointsBetweenNodes>,
     ) -> Self {
-        let wear_mm = modification_mm.as_ref().map(|flank| vec![0.0; flank.len()]);
-        Self { cycle, means, modification_mm, removed_mm: modification_mm.clone(), depth_mm: wear_mm.clone(), wear_mm }
+        let wear_mm = PerGear::from_fn(|gear| vec![0.0; before_mm[gear].len()]);
+        let lost_mm = before_mm.as_ref().clone();
+        Self { cycle, means, before_mm, lost_mm, depth_mm: wear_mm.clone(), wear_mm, between_nodes }
+    }
+
+    /// Values at the flank points.
+    fn at_points(&self, at_places: &PerGear<Vec<f64>>) -> PerGear<Vec<f64>> {
+        self.between_nodes.as_ref().map_or_else(|| at_places.clone(), |points| points.values(at_places))
+    }
+
+    /// Sets what the flanks have lost from their wear.
+    fn lose_wear(&mut self) {
+        for gear in Gear::BOTH {
+            let places = self.before_mm[gear].iter().zip(&self.wear_mm[gear]);
+            self.lost_mm[gear].iter_mut().zip(places).for_each(|(lost, (before, wear))| *lost = before + wear);
+        }
     }
 }
 
@@ -170,20 +211,13 @@ fn lost(lost_mm: &PerGear<Vec<f64>>) -> LostMaterial<'_> {
     lost_mm.as_ref().map(Vec::as_slice)
 }
 
-/// Adds the wear `wear_mm` to what a flank had lost before it.
-fn add(lost_mm: &mut [f64], before_mm: &[f64], wear_mm: &[f64]) {
-    for ((lost, before), wear) in lost_mm.iter_mut().zip(before_mm).zip(wear_mm) {
-        *lost = before + wear;
-    }
-}
-
-impl WearingPair for OnFlankPoints<'_> {
+impl WearingPair for OnFlankPlaces<'_> {
     fn evaluate(
         &mut self,
         wear: &WearModel<'_>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
-        self.cycle.evaluate(lost(&self.removed_mm), wear, &mut self.depth_mm, stopped)
+        self.cycle.evaluate(lost(&self.lost_mm), wear, &mut self.depth_mm, stopped)
     }
 
     fn choose_part(&mut self) -> bool {
@@ -195,136 +229,7 @@ impl WearingPair for OnFlankPoints<'_> {
         wear: &WearModel<'_>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
-        self.cycle.evaluate_part(lost(&self.removed_mm), wear, &mut self.depth_mm, stopped)
-    }
-
-    fn begin_stages(&mut self, wear: &WearModel<'_>) {
-        self.cycle.begin_stages(lost(&self.removed_mm), wear);
-    }
-
-    fn evaluate_stage(
-        &mut self,
-        wear: &WearModel<'_>,
-        stopped: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Work, EquilibriumError> {
-        self.cycle.evaluate_stage(lost(&self.removed_mm), wear, &mut self.depth_mm, stopped)
-    }
-
-    fn complete_stage(
-        &mut self,
-        wear: &WearModel<'_>,
-        stopped: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Option<Work>, EquilibriumError> {
-        self.cycle.complete_stage(lost(&self.removed_mm), wear, &mut self.depth_mm, stopped)
-    }
-
-    fn wear_for(&mut self, meshes: PerGear<f64>) {
-        for gear in Gear::BOTH {
-            let points = self.wear_mm[gear].iter_mut().zip(&mut self.removed_mm[gear]);
-            let rates = self.depth_mm[gear].iter().zip(&self.modification_mm[gear]);
-            for ((wear, removed), (depth, modification)) in points.zip(rates) {
-                *wear += meshes[gear] * depth;
-                *removed = modification + *wear;
-            }
-        }
-    }
-
-    fn reset(&mut self) {
-        self.cycle.reset();
-    }
-
-    fn wear_mm(&self) -> PerGear<Vec<f64>> {
-        self.wear_mm.clone()
-    }
-
-    fn greatest_mean_mm(&self, row: PerGear<&[f64]>) -> f64 {
-        self.means.greatest_mm(row)
-    }
-
-    fn mean_about_mm(&self, gear: Gear, place: usize, row: &[f64]) -> f64 {
-        self.means.about_mm(gear, place, row)
-    }
-
-    fn wear_at_points_mm(&self) -> PerGear<Vec<f64>> {
-        self.wear_mm.clone()
-    }
-
-    fn set_wear_mm(&mut self, wear_mm: &PerGear<Vec<f64>>) {
-        for gear in Gear::BOTH {
-            self.wear_mm[gear].copy_from_slice(&wear_mm[gear]);
-            add(&mut self.removed_mm[gear], &self.modification_mm[gear], &wear_mm[gear]);
-        }
-    }
-
-    fn depth_mm(&self, depth_mm: &mut PerGear<Vec<f64>>) {
-        depth_mm.clone_from(&self.depth_mm);
-    }
-
-    fn peak_to_peak_mm(&self) -> f64 {
-        self.cycle.peak_to_peak_mm()
-    }
-
-    fn snapshot(&mut self, revolutions: f64) -> Result<Snapshot, EquilibriumError> {
-        let cycle = self.cycle.observe(lost(&self.removed_mm))?;
-        Ok(Snapshot {
-            revolutions,
-            wear_mm: self.wear_mm.clone(),
-            depth_per_mesh_mm: self.depth_mm.clone(),
-            lost_at_nodes: None,
-            cycle,
-            over_life: PeakToPeakOverLife::default(),
-        })
-    }
-}
-
-/// Flanks of finite elements, worn at their nodes; values at flank points are interpolated.
-pub(crate) struct OnFlankNodes<'a> {
-    cycle: CondensedCycle<'a>,
-    means: LocalMeans,
-    /// Nominal radii of the flank points.
-    radius_mm: PerGear<Vec<f64>>,
-    /// Deviations of measured flanks, of which the mesh knows nothing.
-    measured_mm: PerGear<Vec<f64>>,
-    /// These and the wear.
-    lost_mm: PerGear<Vec<f64>>,
-    wear_mm: PerGear<Vec<f64>>,
-    depth_mm: PerGear<Vec<f64>>,
-}
-
-impl<'a> OnFlankNodes<'a> {
-    /// Unworn flanks with points at the nominal radii `radius_mm`, whose nodes deviate by `measured_mm` from the mesh.
-    pub(crate) fn new(
-        cycle: CondensedCycle<'a>,
-        means: LocalMeans,
-        radius_mm: PerGear<Vec<f64>>,
-        measured_mm: PerGear<Vec<f64>>,
-    ) -> Self {
-        let wear_mm = measured_mm.as_ref().map(|nodes| vec![0.0; nodes.len()]);
-        let lost_mm = measured_mm.clone();
-        Self { cycle, means, radius_mm, measured_mm, lost_mm, depth_mm: wear_mm.clone(), wear_mm }
-    }
-
-    /// Values at the flank points, from those at the nodes.
-    fn at_points(&self, at_nodes: &PerGear<Vec<f64>>) -> PerGear<Vec<f64>> {
-        PerGear::from_fn(|gear| self.cycle.at_radii(gear, &at_nodes[gear], self.radius_mm[gear].iter().copied()))
-    }
-}
-
-impl WearingPair for OnFlankNodes<'_> {
-    fn evaluate(
-        &mut self,
-        wear: &WearModel<'_>,
-        stopped: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Work, EquilibriumError> {
-        self.cycle.evaluate(lost(&self.lost_mm), wear, &mut self.depth_mm, stopped)
-    }
-
-    fn linearise_anew(
-        &mut self,
-        wear: &WearModel<'_>,
-        stopped: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Option<Work>, EquilibriumError> {
-        self.cycle.linearise_anew(lost(&self.lost_mm), wear, &mut self.depth_mm, stopped)
+        self.cycle.evaluate_part(lost(&self.lost_mm), wear, &mut self.depth_mm, stopped)
     }
 
     fn begin_stages(&mut self, wear: &WearModel<'_>) {
@@ -355,12 +260,20 @@ impl WearingPair for OnFlankNodes<'_> {
         self.cycle.complete_stage(lost(&self.lost_mm), wear, &mut self.depth_mm, stopped)
     }
 
+    fn linearise_anew(
+        &mut self,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Work>, EquilibriumError> {
+        self.cycle.linearise_anew(lost(&self.lost_mm), wear, &mut self.depth_mm, stopped)
+    }
+
     fn wear_for(&mut self, meshes: PerGear<f64>) {
         for gear in Gear::BOTH {
-            let nodes = self.wear_mm[gear].iter_mut().zip(&self.depth_mm[gear]);
-            nodes.for_each(|(wear, depth)| *wear += meshes[gear] * depth);
-            add(&mut self.lost_mm[gear], &self.measured_mm[gear], &self.wear_mm[gear]);
+            let places = self.wear_mm[gear].iter_mut().zip(&self.depth_mm[gear]);
+            places.for_each(|(wear, depth)| *wear += meshes[gear] * depth);
         }
+        self.lose_wear();
     }
 
     fn reset(&mut self) {
@@ -385,9 +298,7 @@ impl WearingPair for OnFlankNodes<'_> {
 
     fn set_wear_mm(&mut self, wear_mm: &PerGear<Vec<f64>>) {
         self.wear_mm.clone_from(wear_mm);
-        for gear in Gear::BOTH {
-            add(&mut self.lost_mm[gear], &self.measured_mm[gear], &wear_mm[gear]);
-        }
+        self.lose_wear();
     }
 
     fn depth_mm(&self, depth_mm: &mut PerGear<Vec<f64>>) {
@@ -400,15 +311,21 @@ impl WearingPair for OnFlankNodes<'_> {
 
     fn snapshot(&mut self, revolutions: f64) -> Result<Snapshot, EquilibriumError> {
         let mut cycle = self.cycle.observe(lost(&self.lost_mm))?;
-        cycle.pressure_mpa = self.at_points(&cycle.pressure_mpa);
-        cycle.sliding_mm = self.at_points(&cycle.sliding_mm);
-        let (wear_mm, depth_per_mesh_mm) = (self.at_points(&self.wear_mm), self.at_points(&self.depth_mm));
-        let nodes = self.cycle.nodes();
-        let lost_at_nodes = PerGear::from_fn(|gear| LostArea {
-            wear_mm2: weighted_sum(&nodes[gear].share_mm, &self.wear_mm[gear]),
-            per_mesh_mm2: weighted_sum(&nodes[gear].share_mm, &self.depth_mm[gear]),
+        let lost_at_nodes = self.between_nodes.as_ref().map(|points| {
+            cycle.pressure_mpa = points.values(&cycle.pressure_mpa);
+            cycle.sliding_mm = points.values(&cycle.sliding_mm);
+            PerGear::from_fn(|gear| LostArea {
+                wear_mm2: weighted_sum(&points.node_share_mm[gear], &self.wear_mm[gear]),
+                per_mesh_mm2: weighted_sum(&points.node_share_mm[gear], &self.depth_mm[gear]),
+            })
         });
-        let over_life = PeakToPeakOverLife::default();
-        Ok(Snapshot { revolutions, wear_mm, depth_per_mesh_mm, lost_at_nodes: Some(lost_at_nodes), cycle, over_life })
+        Ok(Snapshot {
+            revolutions,
+            wear_mm: self.at_points(&self.wear_mm),
+            depth_per_mesh_mm: self.at_points(&self.depth_mm),
+            lost_at_nodes,
+            cycle,
+            over_life: PeakToPeakOverLife::default(),
+        })
     }
 }

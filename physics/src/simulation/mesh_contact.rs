@@ -1,11 +1,13 @@
 //! The elastic model of a pair in mesh, and the pair that wears by it.
 
+use std::borrow::Cow;
+
 use super::settings::Numerics;
 use crate::contact::flank_pressure::FlankParts;
 use crate::contact::{ContactSurface, Effort, Flanks};
 use crate::mesh_cycle::local_means::LocalMeans;
 use crate::mesh_cycle::simplified::{SimplifiedPair, exact::SlicesInSeries};
-use crate::mesh_cycle::wearing_pair::{OnFlankNodes, OnFlankPoints, WearingPair};
+use crate::mesh_cycle::wearing_pair::{OnFlankPlaces, PointsBetweenNodes, WearingPair};
 use crate::mesh_cycle::{
     LineOfActionCycle, MeshCycle,
     condensed::CondensedCycle,
@@ -179,23 +181,29 @@ impl<'a> LoadedMesh<'a> {
             }
             MeshContact::FiniteElements(model) => {
                 let cycle = CondensedCycle::new(model, count, line_load).observing(self.zones);
-                let radius_mm = PerGear::from_fn(|gear| {
-                    let involute = self.pair.teeth[gear].involute;
-                    flanks.grid[gear].coordinate_mm.iter().map(|&rho| involute.radius_mm(rho)).collect()
-                });
+                let between_nodes = PointsBetweenNodes {
+                    radius_mm: PerGear::from_fn(|gear| {
+                        let involute = self.pair.teeth[gear].involute;
+                        flanks.grid[gear].coordinate_mm.iter().map(|&rho| involute.radius_mm(rho)).collect()
+                    }),
+                    node_radius_mm: cycle.radius_mm().map(<[f64]>::to_vec),
+                    node_share_mm: cycle.nodes().map(|nodes| nodes.share_mm.clone()),
+                };
                 let places = cycle.nodes().map(|nodes| (nodes.along_mm.clone(), nodes.share_mm.clone()));
                 let means = LocalMeans::new(places, &self.zones);
                 let measured_mm = PerGear::from_fn(|gear| {
                     measured_flank_mm(self.pair, gear, cycle.radius_mm()[gear].iter().copied())
                 });
-                return Ok(Box::new(OnFlankNodes::new(cycle, means, radius_mm, measured_mm)));
+                let cycle = Box::new(cycle);
+                return Ok(Box::new(OnFlankPlaces::new(cycle, means, Cow::Owned(measured_mm), Some(between_nodes))));
             }
         };
         let places = flanks.grid.map(|grid| {
             let share_mm = (0..grid.len()).map(|i| grid.share_mm(i)).collect();
             (grid.arc_mm.clone(), share_mm)
         });
-        Ok(Box::new(OnFlankPoints::new(cycle, LocalMeans::new(places, &self.zones), modification_mm)))
+        let means = LocalMeans::new(places, &self.zones);
+        Ok(Box::new(OnFlankPlaces::new(cycle, means, Cow::Borrowed(modification_mm), None)))
     }
 
     /// The simplified model of a pair with slices.
