@@ -37,6 +37,10 @@ const VERIFIED_TOLERANCE_MM: f64 = 5e-5;
 const VERIFIED_CONTACTS: [f64; 2] = [0.5, 1.0];
 /// Flank points in a contact that the times of a position are measured with, and the power with which these grow.
 const POINTS: (f64, f64) = (20.0, 0.6);
+/// Flank points to a position from which the time of contacts beside finite elements grows with the points, all of which pass through contact.
+const POINTS_OF_POSITION: f64 = 4.0;
+/// Time of the output of a flank point of a slice, s.
+const OUTPUT_S: f64 = 9e-6;
 /// Plane finite elements of a pair: time of a model, s, and of a position of the mesh cycle, s; memory, GB.
 const PLANE_ELEMENTS: (f64, f64, f64) = (0.12, 60e-6, 0.1);
 /// Positions of the mesh cycle of a verification on plane finite elements.
@@ -112,6 +116,8 @@ impl RunCost {
 struct Work {
     /// Positions of the mesh cycle, of all loads.
     positions: f64,
+    /// Flank points, of all loads.
+    points: f64,
     mesh_cycles: f64,
     /// Mesh cycles of the verification, whose steps are adaptive.
     verified_cycles: f64,
@@ -131,6 +137,7 @@ impl Work {
         let more = if severe { SEVERE } else { 1.0 };
         Self {
             positions: scene.numerics.positions as f64 * super::loads(scene),
+            points: scene.numerics.flank_points as f64 * super::loads(scene),
             mesh_cycles: mesh_cycles(scene, pair, more),
             verified_cycles: more * adaptive_cycles(scene, pair, VERIFIED_TOLERANCE_MM) + PREPARATION_CYCLES,
             slices: scene.slices.map(|slices| slices.count as f64),
@@ -145,25 +152,28 @@ impl Work {
         match kind {
             StageKind::FiniteElementModel | StageKind::FiniteElementCalibration => model_s,
             StageKind::TeethInSpace => IN_SPACE_S * (super::layers_in_space(scene) as f64).powi(2),
-            StageKind::StepBound => self.wear_run(scene.contact.surface, self.positions, PREPARATION_CYCLES),
-            StageKind::Simulation => self.wear_run(scene.contact.surface, self.positions, cycles),
+            StageKind::StepBound => self.wear_run(scene.contact.surface, PREPARATION_CYCLES),
+            StageKind::Simulation => self.wear_run(scene.contact.surface, cycles),
             StageKind::ErrorEstimates if is_estimated_by_verification(scene) => 0.0,
             StageKind::ErrorEstimates => ERROR_ESTIMATES * self.seconds(StageKind::Simulation, scene),
             StageKind::Verification if self.slices.is_some() => {
                 let [of_finest, of_others] = VERIFIED_CONTACTS;
                 let contacts = if is_finest_in_space(scene) { of_finest } else { of_others };
-                self.wear_run(SurfaceKind::HalfSpace, contacts * self.positions, self.verified_cycles)
+                contacts * self.wear_run(SurfaceKind::HalfSpace, self.verified_cycles)
             }
             StageKind::Verification => position_s * PLANE_POSITIONS * self.verified_cycles + model_s,
+            StageKind::Report => {
+                OUTPUT_S * scene.numerics.flank_points as f64 * self.slices.map_or(0.0, |slices| 2.0 * slices)
+            }
             _ => 0.0,
         }
     }
 
     /// Time of a wear run on a surface, s.
-    fn wear_run(&self, surface: SurfaceKind, positions: f64, cycles: f64) -> f64 {
-        let evaluations = positions * cycles;
+    fn wear_run(&self, surface: SurfaceKind, cycles: f64) -> f64 {
+        let evaluations = self.positions.max(self.points / POINTS_OF_POSITION) * cycles;
         let [plane_us, of_slice_us] = match surface {
-            SurfaceKind::Fem => return PLANE_ELEMENTS.1 * evaluations,
+            SurfaceKind::Fem => return PLANE_ELEMENTS.1 * self.positions * cycles,
             SurfaceKind::HalfSpace => [8.0, 12.0],
             SurfaceKind::Winkler => [3.0, 8.0],
             SurfaceKind::Hertz => [2.5, 8.0],
