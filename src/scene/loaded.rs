@@ -231,14 +231,21 @@ impl LoadedScene {
         self.calibrated_with(calibration, |_, _| {})
     }
 
-    /// Scene on a Winkler foundation with this calibration, as if the file named both, at the resolution of this one but on `most_positions` from A to E at
-    /// most.
+    /// Scene on a Winkler foundation with this calibration, as if the file named both, at the resolution of this one but with `most_positions` from A to E
+    /// and `most_points` on a flank at most.
     ///
     /// # Errors
     /// A calibration of another pair.
-    pub fn on_calibrated_foundation(&self, calibration: Calibration, most_positions: usize) -> Result<Self, LoadError> {
+    pub fn on_calibrated_foundation(
+        &self,
+        calibration: Calibration,
+        most_positions: usize,
+        most_points: usize,
+    ) -> Result<Self, LoadError> {
         let resolved: toml::Table = self.to_toml().parse().unwrap_or_default();
-        let positions = self.scene().numerics.positions.min(most_positions) as i64;
+        let numerics = &self.scene().numerics;
+        let positions = numerics.positions.min(most_positions) as i64;
+        let points = numerics.flank_points.min(most_points) as i64;
         self.calibrated_with(calibration, |draft, of_mesh| {
             for foundation in ["contact.foundation_MPa_per_mm".to_owned(), of_mesh("contact.foundation_MPa_per_mm")] {
                 draft.remove(&foundation);
@@ -249,6 +256,7 @@ impl LoadedScene {
                 draft.set(&of_mesh("numerics"), numerics.clone());
             }
             draft.set(&of_mesh("numerics.positions"), positions);
+            draft.set(&of_mesh("numerics.flank_points"), points);
         })
     }
 
