@@ -2,9 +2,9 @@
 //!
 //! Finite elements of the scene as given calibrate K/H and the stiffness of the teeth once. The foundation takes [`POSITIONS`] positions and
 //! [`FLANK_POINTS`] points at most: on 400 positions the wear of FZG type C is 0.2 % greater, that of its tip edges 0.5 % less, and 750 points change
-//! neither by more than 0.4 %. On 100 positions tip edges of deeply worn pairs differ by more than is taken. The scene is then run on both surfaces, as given, with all
-//! uncertain keys low, with all high, and with some low and others high such that every two keys are once apart: the profile slopes of both gears do
-//! nothing while they are alike. With y the figure on the scene's own surface and y' that on the foundation, as given (0) or with the keys so (±),
+//! neither by more than 0.4 %. On 100 positions tip edges of deeply worn pairs differ by more than is taken. The scene is then run on both surfaces, as
+//! given, with all uncertain keys low, with all high, and with some low and others high such that every two keys are once apart: the profile slopes of both
+//! gears do nothing while they are alike. With y the figure on the scene's own surface and y' that on the foundation, as given (0) or with the keys so (±),
 //!
 //! ```text
 //! correction   c = y₀/y'₀            difference   d = max |c y'±/y± − 1|
