@@ -26,6 +26,65 @@ fn run(edits: &[(&str, &str)], more: &str) -> RunRecord {
     runs::run(&loaded(&resolved), &Unwatched).unwrap().record
 }
 
+/// A plastic wheel that oxidises on half-planes, faster the hotter it is, worn so deep that its flank comes to touch in ever new places.
+const OXIDISING: &str = r#"
+title = "oxidising wheel"
+[pair]
+normal_module_mm = 1.633
+pressure_angle_deg = 20.0
+face_width_mm = 13.05
+backlash_um = 84.64
+[pair.pinion]
+teeth = 17
+profile_shift = 0.4182
+tip_rounding_mm = 0.05727
+[pair.wheel]
+teeth = 66
+profile_shift = 0.2804
+tip_rounding_mm = 0.05203
+[material.wheel]
+preset = "POM"
+young_modulus_GPa = 7.891
+poisson_ratio = 0.4041
+[stiffness]
+model = "constant"
+pair_N_per_mm_um = 2.165
+[contact]
+surface = "half-space"
+[operation]
+pinion_speed_rpm = 2326.0
+pinion_torque_Nm = 26.3
+pinion_revolutions = 3.4e6
+[temperature]
+friction_coefficient = 0.1983
+method = "tian-kennedy"
+partition = "equal"
+velocity = "surface"
+[temperature.tooth]
+ambient_temperature_C = 46.93
+lubrication = "dry"
+[wear]
+law = "oxidation"
+coefficient_m2_per_N = 8.135e-11
+[numerics]
+positions = 100
+flank_points = 250
+tolerance_um = 0.05
+verify = false
+error_estimate = false
+"#;
+
+/// Temperatures follow from a half-width that does not jump where worn flanks come to touch in another place: with half the extent of the contact, which
+/// does, half of the steps were rejected, and the others ever shorter.
+#[test]
+fn ver_temperatures_of_worn_flanks_do_not_jump() {
+    let resolved = Resolved::from_toml(OXIDISING).unwrap_or_else(|problems| panic!("{problems:?}"));
+    let summary = runs::run(&loaded(&resolved), &Unwatched).unwrap().record.summary;
+    println!("{:?}, wheel {} µm", summary.work, summary.wheel.peak_wear_um);
+    assert!(summary.wheel.peak_wear_um > 20.0, "{}", summary.wheel.peak_wear_um);
+    assert!(summary.work.mesh_cycles < 300 && summary.work.rejected_steps < 10, "{:?}", summary.work);
+}
+
 /// S6, Fig 19: nil at the pitch point, below 100 K, three curves of one shape; Peclet numbers from about 2 down to 0.1 near
 /// the pitch point. The thesis calls its curves very similar; ours, at 150 rpm and 302 N·m, differ by up to half where the
 /// rise is greatest, as Peclet numbers about 1 must make them (docs/theory.md).

@@ -216,9 +216,9 @@ impl PairContact for HertzPair<'_> {
 
     fn footprint(&self) -> Footprint {
         let a = self.half_width_mm;
-        let extent = self.extent.upper_mm.min(a) - self.extent.lower_mm.max(-a);
+        let half_width_mm = 0.5 * (self.extent.upper_mm.min(a) - self.extent.lower_mm.max(-a));
         let peak_pressure_mpa = self.closed_form.flattening.contact.loaded(self.strip_load).peak_pressure_mpa;
-        Footprint { peak_pressure_mpa, half_width_mm: 0.5 * extent, at_sharp_edge: false }
+        Footprint { peak_pressure_mpa, half_width_mm, equivalent_half_width_mm: half_width_mm, at_sharp_edge: false }
     }
 
     fn pressed_cells(&self) -> Vec<PressedCell> {

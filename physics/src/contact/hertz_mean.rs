@@ -117,7 +117,12 @@ impl PairContact for HertzMeanPair<'_> {
     fn footprint(&self) -> Footprint {
         let half_width_mm = self.closed_form.flattening.contact.loaded(self.closed_form.line_load).half_width_mm;
         let mean = if half_width_mm > 0.0 { self.closed_form.line_load / (2.0 * half_width_mm) } else { 0.0 };
-        Footprint { peak_pressure_mpa: mean, half_width_mm, at_sharp_edge: false }
+        Footprint {
+            peak_pressure_mpa: mean,
+            half_width_mm,
+            equivalent_half_width_mm: half_width_mm,
+            at_sharp_edge: false,
+        }
     }
 
     fn pressed_cells(&self) -> Vec<PressedCell> {

@@ -12,6 +12,7 @@
 //! of the contact: to second order in the width of the cells, though the cells themselves know it to half a width only.
 
 use super::Footprint;
+use super::standard_deviation::{HALF_WIDTH_OF_ELLIPSE, LoadedCell, standard_deviation_mm};
 
 /// Number of cells whose loads determine the end of a contact.
 const END_CELLS: usize = 3;
@@ -188,10 +189,20 @@ impl PressureField {
         (lower, upper)
     }
 
-    /// Greatest pressure, between the cells' centres, and half the extent.
+    /// Greatest pressure, between the cells' centres, half the extent, and the half-width of Hertz's ellipse with the same second moment.
     pub(crate) fn footprint(&self) -> Footprint {
         let (lower, upper) = self.extent_mm;
-        Footprint { peak_pressure_mpa: self.peak_mpa, half_width_mm: 0.5 * (upper - lower), at_sharp_edge: false }
+        let cells = self.pressure_mpa.iter().zip(0..).map(|(&load, k)| LoadedCell {
+            load,
+            centre_mm: f64::from(k) * self.width_mm,
+            width_mm: self.width_mm,
+        });
+        Footprint {
+            peak_pressure_mpa: self.peak_mpa,
+            half_width_mm: 0.5 * (upper - lower),
+            equivalent_half_width_mm: HALF_WIDTH_OF_ELLIPSE * standard_deviation_mm(cells),
+            at_sharp_edge: false,
+        }
     }
 
     /// Top of the parabola through the greatest pressure and its neighbours, or the pressure itself in an outermost cell.

@@ -339,7 +339,8 @@ impl PairContact for WinklerPair<'_> {
         let half_width_mm = 0.5 * (self.extent_mm.1 - self.extent_mm.0);
         let at_ends = [self.gap.first(), self.gap.last()].map(|gap| gap.is_some_and(|gap| *gap < self.indentation_mm));
         let at_sharp_edge = self.strip().window.is_sharp_where(at_ends);
-        Footprint { peak_pressure_mpa: self.foundation * penetration, half_width_mm, at_sharp_edge }
+        let peak_pressure_mpa = self.foundation * penetration;
+        Footprint { peak_pressure_mpa, half_width_mm, equivalent_half_width_mm: half_width_mm, at_sharp_edge }
     }
 
     fn pressed_cells(&self) -> Vec<PressedCell> {

@@ -2,6 +2,7 @@
 
 use crate::contact::PressedCell;
 use crate::contact::flank_pressure::ContactParts;
+use crate::contact::standard_deviation::{HALF_WIDTH_OF_ELLIPSE, LoadedCell, standard_deviation_mm};
 use crate::thermal::{ContactHeat, HeatedStrip, SpeedRatios};
 use crate::wear::{
     ContactConditions,
@@ -112,19 +113,14 @@ impl HeatedContactRows {
         let length_mm = stretch_mm.1 - stretch_mm.0;
         let rolling = PerGear::from_fn(|gear| model.pair.rolling_ratio(gear, place.position_mm()));
         let loads = pressure_mpa.iter().zip(&contact.weight_mm).map(|(pressure, weight)| pressure * weight);
-        let (mut sum, mut first, mut second, mut slid) = (0.0, 0.0, 0.0, 0.0);
-        for (i, load) in loads.enumerate() {
-            let at = contact.along_mm[i];
-            sum += load;
-            first += load * at;
-            second += load * (at * at + contact.weight_mm[i].powi(2) / 12.0);
-            slid += load * contact.sliding_mm[i];
-        }
-        let variance = (second / sum - (first / sum).powi(2)).max(0.0);
+        let cells = loads.clone().zip(contact.along_mm.iter().zip(&contact.weight_mm));
+        let cells = cells.map(|(load, (&centre_mm, &width_mm))| LoadedCell { load, centre_mm, width_mm });
+        let sum: f64 = loads.clone().sum();
+        let slid: f64 = loads.zip(&contact.sliding_mm).map(|(load, sliding_mm)| load * sliding_mm).sum();
         let strip = HeatedStrip {
             ratios: SpeedRatios { sliding: slid / sum / length_mm, rolling },
             line_load_n_per_mm: sum,
-            half_width_mm: 2.0 * variance.sqrt(),
+            half_width_mm: HALF_WIDTH_OF_ELLIPSE * standard_deviation_mm(cells),
             friction_coefficient,
         };
         let heated = HeatedContact { heat, strip };

@@ -59,6 +59,8 @@ pub struct SlicedMesh {
     pub peak_pressure_mpa: Vec<f64>,
     /// Half-width of the contact of each slice at each position, mm.
     pub half_width_mm: Vec<f64>,
+    /// Half-width of the heated strip ([`Footprint::equivalent_half_width_mm`]).
+    pub equivalent_half_width_mm: Vec<f64>,
     /// Whether a sharp tip edge cuts off the contact of each slice at each position.
     pub at_sharp_edge: Vec<bool>,
     /// Transmission error at evenly spaced positions of one base pitch, from `first_position_mm` on.
@@ -101,7 +103,8 @@ impl SlicedMesh {
             part_of_width: zeros.clone(),
             line_load_n_per_mm: zeros.clone(),
             peak_pressure_mpa: zeros.clone(),
-            half_width_mm: zeros,
+            half_width_mm: zeros.clone(),
+            equivalent_half_width_mm: zeros,
             at_sharp_edge: vec![false; rows * slices],
             transmission_error_mm: positions.iter().map(|at| at.transmission_error_mm).collect(),
             stiffness_n_per_mm2: positions.iter().filter_map(|at| at.stiffness_n_per_mm2).collect(),
@@ -118,6 +121,7 @@ impl SlicedMesh {
                 mesh.line_load_n_per_mm[place] = contact.line_load_n_per_mm;
                 mesh.peak_pressure_mpa[place] = contact.footprint.peak_pressure_mpa;
                 mesh.half_width_mm[place] = contact.footprint.half_width_mm;
+                mesh.equivalent_half_width_mm[place] = contact.footprint.equivalent_half_width_mm;
                 mesh.at_sharp_edge[place] = contact.footprint.at_sharp_edge;
             }
         }
@@ -128,8 +132,10 @@ impl SlicedMesh {
     fn between(mut self, [first, last]: [usize; 2]) -> Self {
         let n = self.slices;
         self.position_mm = self.position_mm[first..=last].to_vec();
-        let Self { part_of_width, line_load_n_per_mm, peak_pressure_mpa, half_width_mm, .. } = &mut self;
-        for field in [part_of_width, line_load_n_per_mm, peak_pressure_mpa, half_width_mm] {
+        let Self {
+            part_of_width, line_load_n_per_mm, peak_pressure_mpa, half_width_mm, equivalent_half_width_mm, ..
+        } = &mut self;
+        for field in [part_of_width, line_load_n_per_mm, peak_pressure_mpa, half_width_mm, equivalent_half_width_mm] {
             *field = field[first * n..(last + 1) * n].to_vec();
         }
         self.at_sharp_edge = self.at_sharp_edge[first * n..(last + 1) * n].to_vec();
@@ -145,15 +151,15 @@ impl SlicedMesh {
             .map(|length_mm| (length_mm / spacing).round().max(0.0) as usize);
         let down = (1..=before).rev().map(|row| first_mm - row as f64 * spacing);
         let up = (1..=after).map(|row| last_mm + row as f64 * spacing);
-        let [part_of_width, line_load_n_per_mm, peak_pressure_mpa, half_width_mm] =
-            [&self.part_of_width, &self.line_load_n_per_mm, &self.peak_pressure_mpa, &self.half_width_mm]
-                .map(|field| [&vec![0.0; before * self.slices][..], field, &vec![0.0; after * self.slices]].concat());
+        let with_rows =
+            |field: &Vec<f64>| [&vec![0.0; before * self.slices][..], field, &vec![0.0; after * self.slices]].concat();
         Self {
             position_mm: down.chain(self.position_mm.iter().copied()).chain(up).collect(),
-            part_of_width,
-            line_load_n_per_mm,
-            peak_pressure_mpa,
-            half_width_mm,
+            part_of_width: with_rows(&self.part_of_width),
+            line_load_n_per_mm: with_rows(&self.line_load_n_per_mm),
+            peak_pressure_mpa: with_rows(&self.peak_pressure_mpa),
+            half_width_mm: with_rows(&self.half_width_mm),
+            equivalent_half_width_mm: with_rows(&self.equivalent_half_width_mm),
             at_sharp_edge: [
                 &vec![false; before * self.slices],
                 &*self.at_sharp_edge,
@@ -216,6 +222,8 @@ impl SlicedMesh {
             footprint: Footprint {
                 peak_pressure_mpa: self.over_rows(line, first_row, |row| self.greatest(&self.peak_pressure_mpa, row)),
                 half_width_mm: self.over_rows(line, first_row, |row| self.greatest(&self.half_width_mm, row)),
+                equivalent_half_width_mm: self
+                    .over_rows(line, first_row, |row| self.greatest(&self.equivalent_half_width_mm, row)),
                 at_sharp_edge: self.over_rows(line, first_row, |row| f64::from(u8::from(self.is_sharp(row)))) > 0.0,
             },
         }
@@ -299,7 +307,12 @@ mod tests {
                 slice: 0,
                 part_of_width: 1.0,
                 line_load_n_per_mm: f64::from(row),
-                footprint: Footprint { peak_pressure_mpa: 1.0, half_width_mm: 0.1, at_sharp_edge: true },
+                footprint: Footprint {
+                    peak_pressure_mpa: 1.0,
+                    half_width_mm: 0.1,
+                    equivalent_half_width_mm: 0.1,
+                    at_sharp_edge: true,
+                },
             });
             ObservedSlicedPosition {
                 position_mm: 10.0 + 0.5 * f64::from(j),

@@ -1,7 +1,7 @@
 //! Wear of the flank points in a contact of a tooth pair, with the heat and the film of the contact for laws that read them.
 
 use super::load_sharing::MeshedPair;
-use crate::contact::{Flanks, PairContact, PositionCell, Sweep};
+use crate::contact::{Flanks, Footprint, PositionCell, Sweep};
 use crate::lubrication::running_pair::LoadedPlace;
 use crate::thermal::{HeatedStrip, SpeedRatios};
 use crate::wear::{
@@ -47,7 +47,12 @@ impl<'p> ContactOnPath<'p> {
     }
 
     /// Contact of a pair under load here; none where neither law reads contact conditions.
-    fn under<'a>(&self, wear: &WearModel<'a>, pair: &dyn PairContact, loaded: &LoadedPlace) -> Option<HeatedPair<'a>>
+    fn under<'a>(
+        &self,
+        wear: &WearModel<'a>,
+        loaded: &LoadedPlace,
+        (half_width_mm, across): (f64, bool),
+    ) -> Option<HeatedPair<'a>>
     where
         'p: 'a,
     {
@@ -57,12 +62,12 @@ impl<'p> ContactOnPath<'p> {
                 strip: HeatedStrip {
                     ratios: self.ratios,
                     line_load_n_per_mm: loaded.line_load_n_per_mm,
-                    half_width_mm: pair.footprint().half_width_mm,
+                    half_width_mm,
                     friction_coefficient: wear.friction(heat, loaded),
                 },
             },
             arc_mm: self.arc_mm,
-            across: pair.sweeps_across(),
+            across,
         })
     }
 }
@@ -101,13 +106,14 @@ impl WornPoints {
         let Self { sweep, heated } = self;
         // A surface whose points pass through all of the contact has its mean pressure.
         let greatest = if pair.contact.sweeps_across() { 1.0 } else { PEAK_OVER_MEAN };
+        let Footprint { peak_pressure_mpa, half_width_mm, equivalent_half_width_mm, .. } = pair.contact.footprint();
         let loaded = LoadedPlace {
             position_mm: place.position_mm,
             line_load_n_per_mm: pair.response.line_load_n_per_mm / place.part,
-            peak_pressure_mpa: greatest * pair.contact.footprint().peak_pressure_mpa,
-            half_width_mm: pair.contact.footprint().half_width_mm,
+            peak_pressure_mpa: greatest * peak_pressure_mpa,
+            half_width_mm,
         };
-        let source = place.under(wear, &*pair.contact, &loaded);
+        let source = place.under(wear, &loaded, (equivalent_half_width_mm, pair.contact.sweeps_across()));
         let lambdas = wear.lambdas(&loaded);
         for gear in Gear::BOTH {
             pair.contact.sweep(gear, removed_mm, sweep);

@@ -165,7 +165,7 @@ impl HeatObserver<'_> {
             let contact = ContactAsHeated {
                 position_mm: at.position_mm,
                 line_load_n_per_mm: at.load_share * self.line_load_n_per_mm,
-                half_width_mm: at.footprint.half_width_mm,
+                half_width_mm: at.footprint.equivalent_half_width_mm,
                 length_mm,
             };
             self.weigh(&contact, sums);
@@ -195,7 +195,7 @@ impl HeatObserver<'_> {
                     let contact = ContactAsHeated {
                         position_mm: if part < 1.0 { within(middle_mm) } else { middle_mm },
                         line_load_n_per_mm: mesh.line_load_n_per_mm[place] / part,
-                        half_width_mm: mesh.half_width_mm[place],
+                        half_width_mm: mesh.equivalent_half_width_mm[place],
                         length_mm: part * spacing,
                     };
                     self.weigh(&contact, sums);

@@ -168,6 +168,7 @@ impl CondensedCycle<'_> {
                     footprint: pair.map_or_else(Footprint::default, |pair| Footprint {
                         peak_pressure_mpa: pair.peak_pressure_mpa,
                         half_width_mm: pair.half_width_mm,
+                        equivalent_half_width_mm: pair.half_width_mm,
                         at_sharp_edge: pair.at_sharp_edge,
                     }),
                 }
@@ -198,7 +199,12 @@ impl CondensedCycle<'_> {
                 stiffness_n_per_mm2: Some(stiffness),
                 load_share,
                 load_imbalance,
-                footprint: Footprint { peak_pressure_mpa, half_width_mm, at_sharp_edge },
+                footprint: Footprint {
+                    peak_pressure_mpa,
+                    half_width_mm,
+                    equivalent_half_width_mm: half_width_mm,
+                    at_sharp_edge,
+                },
             }
         });
         observed.collect()

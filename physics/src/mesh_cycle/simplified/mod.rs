@@ -172,6 +172,7 @@ impl<'a> SimplifiedPair<'a> {
                         footprint: Footprint {
                             peak_pressure_mpa: state.pressure_mpa,
                             half_width_mm: state.half_width_mm,
+                            equivalent_half_width_mm: state.half_width_mm,
                             at_sharp_edge: false,
                         },
                     })
