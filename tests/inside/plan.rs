@@ -121,7 +121,8 @@ fn a_cost_grows_with_the_work_and_much_of_it_is_said() {
     let alone = cost("fzg-c", &[("numerics.verify", false.into()), ("numerics.error_estimate", false.into())]);
     assert!(alone.seconds < plane.seconds && alone.seconds < unverified.seconds);
     let finer = cost("fzg-c", &[("numerics.positions", 800.into())]);
-    assert_eq!(seconds(&finer, StageKind::Simulation), 2.0 * seconds(&plane, StageKind::Simulation));
+    let ratio = seconds(&finer, StageKind::Simulation) / seconds(&plane, StageKind::Simulation);
+    assert!((1.0..=2.0).contains(&ratio), "{ratio}: a contact need not move less than a half-width");
     let [few, many] = [20, 100].map(|slices| cost("helical", &[("helical.slices", slices.into())]));
     let ratio = seconds(&many, StageKind::Simulation) / seconds(&few, StageKind::Simulation);
     assert!((ratio / 5.0 - 1.0).abs() < 1e-12 && many.memory_gb > few.memory_gb, "{ratio}, {many:?}");

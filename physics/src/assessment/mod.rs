@@ -353,6 +353,7 @@ fn verify<'a>(
         return Verified::none(not_estimated_because(outcome));
     }
     match plan.left_out_because(StageKind::Verification) {
+        Some(reason) if model.scene.verify => Verified::failed(reason),
         Some(reason) => Verified::none(reason),
         None => {
             let observer = stages.observer;

@@ -82,10 +82,21 @@ impl Scene {
         Self { contact, ..self.clone() }
     }
 
-    /// Whether contact at the pitch point is wide enough under the greatest load for finite elements of a reasonable size.
-    pub fn contact_can_be_meshed(&self, pair: &GearPair) -> bool {
+    /// Whether contact at the pitch point is wide enough under the greatest load for finite elements of a reasonable size; otherwise the reason.
+    ///
+    /// # Errors
+    /// What is too narrow.
+    pub fn contact_can_be_meshed(&self, pair: &GearPair) -> Result<(), String> {
         let [_, greatest_n_mm] = self.operation.torque_range_n_mm();
-        self.half_width_at_pitch_mm(pair, greatest_n_mm) >= LEAST_HALF_WIDTH_MODULES * self.pair.normal_module_mm
+        let half_width_mm = self.half_width_at_pitch_mm(pair, greatest_n_mm);
+        let least_mm = LEAST_HALF_WIDTH_MODULES * self.pair.normal_module_mm;
+        if half_width_mm >= least_mm {
+            return Ok(());
+        }
+        Err(format!(
+            "the contact is too narrow to be meshed: its half-width at the pitch point is {half_width_mm:.2e} mm, at least {least_mm:.2e} mm is \
+             wanted, for narrower contact takes too many elements"
+        ))
     }
 
     /// Half-width of Hertz's contact at C under a torque on the pinion, mm.

@@ -1,5 +1,5 @@
 //! Announced against measured time and memory of random scenes, each run by a process of its own on one thread: `run_costs SEED COUNT` prints a line
-//! for each scene and the ratios of all; a scene that cannot be run is left out.
+//! for each scene and the ratios of all; a scene that cannot be run is left out. Runs write no output, so that the announced time is that without. `run_costs SEED NUMBER --scene` prints one of the scenes.
 //!
 //! Scenes are those of the invariants, with resolutions that users choose in place of their coarse ones.
 
@@ -12,7 +12,7 @@ use std::time::Instant;
 use gearwear::scene::loaded::LoadedScene;
 use gearwear::scene::table::set;
 use gearwear_bodies::gear::GearPair;
-use gearwear_physics::plan::cost::RunCost;
+use gearwear_physics::plan::{StageKind, cost::RunCost};
 use gearwear_validation::invariants::scene_generator;
 use serde_json::{Value, json};
 
@@ -35,12 +35,14 @@ fn scene(seed: u64, index: u64) -> String {
 fn measure(seed: u64, index: u64) -> Result<(), Box<dyn Error>> {
     let scene = LoadedScene::from_toml(&scene(seed, index))?;
     let announced = RunCost::of(scene.scene(), &scene.plan(), &GearPair::new(&scene.scene().pair)?);
+    let without_output = announced.stages.iter().filter(|stage| stage.kind != StageKind::Report);
+    let seconds: f64 = without_output.map(|stage| stage.seconds).sum();
     let start = Instant::now();
     let done = gearwear::run(&scene, &gearwear::Unwatched)?;
     let summary = done.record.summary;
     let stages: Vec<Value> = summary.stages.iter().map(|stage| json!([stage.name, stage.wall_s])).collect();
     let line = json!({
-        "index": index, "announced": announced, "measured": common::cost_since(start), "stages": stages,
+        "index": index, "announced": {"seconds": seconds, "memory_GB": announced.memory_gb, "stages": announced.stages}, "measured": common::cost_since(start), "stages": stages,
         "surface": summary.contact.surface, "mesh_cycles": summary.work.mesh_cycles,
         "depth_um": summary.pinion.peak_wear_um.max(summary.wheel.peak_wear_um),
     });
@@ -65,6 +67,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let numbers: Vec<u64> = args.iter().filter_map(|arg| arg.parse().ok()).collect();
     let [seed, count] = numbers[..] else { return Err("usage: run_costs SEED COUNT".into()) };
+    if args.iter().any(|arg| arg == "--scene") {
+        print!("{}", scene(seed, count));
+        return Ok(());
+    }
     if args.iter().any(|arg| arg == "--one") {
         return measure(seed, count);
     }

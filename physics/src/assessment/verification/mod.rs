@@ -126,8 +126,8 @@ impl Verified {
         Self { total: TotalError::none(reason), ..Self::default() }
     }
 
-    /// A run whose verification failed, which is warned of.
-    fn failed(reason: &str) -> Self {
+    /// A run whose verification failed or cannot be made, which is warned of.
+    pub(super) fn failed(reason: &str) -> Self {
         let warning = Some(format!("not verified by finite elements: {reason}"));
         Self { warning, ..Self::none(reason) }
     }
@@ -182,8 +182,6 @@ pub(super) struct Elements<'a> {
     pub condensed: CondensedPair<'a>,
     /// Load whose half-width of contact the elements resolve, N/mm.
     pub line_load_n_per_mm: f64,
-    /// Half-width of contact at the pitch point under the scene's greatest load, mm, and the least that is meshed.
-    half_width_mm: (f64, f64),
 }
 
 /// Finite elements for the greatest of the scene's loads; where its contact is too narrow to be meshed, for the least that is.
@@ -200,7 +198,7 @@ pub(super) fn elements<'a>(
     // a² is proportional to the load.
     let line_load_n_per_mm = greatest_load * (least_mm / half_width_mm).max(1.0).powi(2);
     let condensed = condensed(scene, pair, line_load_n_per_mm, &scene.wear_bodies(), (elements, observer))?;
-    Ok(Elements { condensed, line_load_n_per_mm, half_width_mm: (half_width_mm, least_mm) })
+    Ok(Elements { condensed, line_load_n_per_mm })
 }
 
 /// The scene's gears, meshed for the contact under a load; `kept` elements stand for them where they are the same.
@@ -266,12 +264,6 @@ fn on_elements<'a>(
         bodies.rounding_refinement = ON_HARDLY_WORN_EDGES;
     }
     let elements = match elements {
-        Some(Ok(Elements { half_width_mm: (half_width, least), .. })) if half_width < least => {
-            return Err(format!(
-                "the contact is too narrow to be meshed for a verification: its half-width at the pitch point is {half_width:.2e} mm, \
-                 at least {least:.2e} mm is wanted, for narrower contact takes too many elements"
-            ));
-        }
         Some(Ok(elements)) if hardly_worn => {
             condensed(scene, model.pair, elements.line_load_n_per_mm, &bodies, (&KeptElements::default(), observer))
         }

@@ -1,0 +1,313 @@
+//! Work of the stages of a run, counted in the sizes that it grows with, and the time and memory of each unit.
+//!
+//! Units were measured once, on one thread of a core of some 2.5 GHz. Mesh cycles are those of Runge–Kutta–Chebyshev's steps, which grow with the root
+//! of the stiffness of wear, its depth over the deflection across the distance of two points:
+//!
+//! ```text
+//! s = 2 h E* / (p Δ)      cycles = c₀ + c₁ √s
+//! ```
+//!
+//! h: mean depth of VDI 2736, half of the greatest or less; p: greatest pressure at the pitch point; Δ: distance of points or nodes.
+//! What shows only when the gears wear, such as how often a severe law switches, leaves an estimate.
+
+use super::{
+    Plan, StageKind, is_estimated_by_verification, is_finest_in_space, layers_in_space, loads, memory_in_space_gb,
+};
+use crate::contact::hertz;
+use crate::contact::settings::SurfaceKind;
+use crate::operation::Scene;
+use crate::simulation::settings::Stepping;
+use crate::wear::settings::WearOfPair;
+use crate::wear::vdi_2736::mean_wear_mm;
+use gearwear_bodies::gear::{Gear, GearPair};
+use gearwear_bodies::gear_mesh::settings::rounding_element_mm;
+use gearwear_bodies::material::{Material, contact_modulus_mpa};
+
+/// Ratio of the greatest wear depth to the mean.
+const GREATEST_DEPTH: f64 = 2.0;
+/// Mean depth where the coefficient is not constant, mm.
+const USUAL_DEPTH_MM: f64 = 1e-4;
+/// Mesh cycles that finding the step bound takes.
+const STEP_BOUND_CYCLES: f64 = 6.0;
+/// Time of error estimates over that of the wear run: with severe wear, which runs twice more; in fixed steps, which run on half of the points; in adaptive ones.
+const ERROR_ESTIMATES: [f64; 3] = [2.2, 0.8, 0.15];
+/// Flank points that take as long as a position on half-planes in slices: all pass through contact, however few the positions. Measured on the preset
+/// `helical` with 45 to 185 positions; on other surfaces, and without slices, the time is that of the positions.
+const POINTS_OF_POSITION: f64 = 12.0;
+/// Positions of the verification on plane finite elements.
+const VERIFIED_POSITIONS: usize = 400;
+/// Positions of the verification of slices, its least number of slices, and its slices over the run's own.
+const VERIFIED_SLICES: (f64, f64, f64) = (150.0, 26.0, 1.3);
+/// Greatest radius of a tip rounding's elements over which these are refined where its edge is hardly worn.
+const REFINED: f64 = 3.0;
+/// Depth of wear of an edge over the bulge of an element there, below which it is hardly worn.
+const HARDLY_WORN: f64 = 10.0;
+/// Time of the output of a flank point of a slice, s.
+const OUTPUT_S: f64 = 9e-6;
+/// Time of three-dimensional finite elements over the square of the number of elements over the face width, s.
+const IN_SPACE_S: f64 = 0.005;
+/// Memory of a program that has begun, without and with slices, and of one that has plane finite elements, GB.
+const PROGRAM_GB: [f64; 3] = [0.016, 0.035, 0.04];
+
+/// Mesh cycles c₀ and c₁ of a run, and those with severe wear over those without.
+struct CycleCounts(f64, f64, f64);
+
+const ON_POINTS: CycleCounts = CycleCounts(8.0, 3.0, 2.0);
+const ON_ELEMENTS: CycleCounts = CycleCounts(6.5, 4.3, 4.0);
+/// The steps of this verification are closer.
+const OF_VERIFIED_SLICES: CycleCounts = CycleCounts(5.0, 8.0, 4.0);
+
+/// Contact at the pitch point under the greatest load, and the wear that is expected.
+struct PitchContact {
+    half_width_mm: f64,
+    /// Greatest pressure over E*.
+    strain: f64,
+    /// Mean wear depth of the gear that wears more, mm.
+    depth_mm: f64,
+    is_severe: bool,
+}
+
+/// Sizes that the work of a scene grows with.
+pub(super) struct Work {
+    contact: PitchContact,
+    /// Positions of the mesh cycle, of all loads.
+    positions: f64,
+    /// Flank points, of all loads.
+    points: f64,
+    /// Distance of flank points, mm.
+    point_mm: f64,
+    /// Number of loads.
+    loads: f64,
+    slices: Option<f64>,
+    mesh_cycles: f64,
+    /// Finite elements of the run, and of its verification.
+    elements: [PlaneElements; 2],
+}
+
+/// Work on plane finite elements.
+struct PlaneElements {
+    /// Nodes of the flanks of both gears.
+    nodes: [f64; 2],
+    /// Multipliers of a position.
+    multipliers: f64,
+    /// Positions in a base pitch, of all loads.
+    positions: f64,
+    mesh_cycles: f64,
+    /// Whether they are not those of the scene.
+    are_own: bool,
+}
+
+impl PitchContact {
+    fn of(scene: &Scene, pair: &GearPair) -> Self {
+        let load = pair.line_load_n_per_mm(scene.operation.torque_range_n_mm()[1]);
+        let at_pitch = hertz::flattening(&pair.normal_section(), &scene.material, pair.path.pitch_point_mm);
+        let contact = at_pitch.contact.loaded(load);
+        let depth_mm = Gear::BOTH.map(|gear| {
+            let stretches = scene.steady_wear(gear, scene.operation.pinion_revolutions)?;
+            Some(mean_wear_mm(pair, gear, stretches.into_iter()))
+        });
+        let deepest_mm = depth_mm.into_iter().flatten().fold(0.0, f64::max);
+        Self {
+            half_width_mm: contact.half_width_mm,
+            strain: contact.peak_pressure_mpa / contact_modulus_mpa(scene.material.map(Material::elastic)),
+            depth_mm: if deepest_mm > 0.0 { deepest_mm } else { USUAL_DEPTH_MM },
+            is_severe: scene.wear.is_severe_under(contact.peak_pressure_mpa, 0.5),
+        }
+    }
+
+    /// Mesh cycles of adaptive steps where points or nodes are `apart_mm` apart.
+    fn cycles(&self, CycleCounts(least, of_root, severe): CycleCounts, apart_mm: f64) -> f64 {
+        let stiffness = GREATEST_DEPTH * self.depth_mm / (self.strain * apart_mm);
+        (least + of_root * stiffness.sqrt()) * if self.is_severe { severe } else { 1.0 }
+    }
+}
+
+impl Work {
+    pub(super) fn of(scene: &Scene, pair: &GearPair) -> Self {
+        let contact = PitchContact::of(scene, pair);
+        let point_mm = flank_mm(pair, Gear::Pinion) / scene.numerics.flank_points as f64;
+        let snapshots = scene.operation.snapshots_revolutions.len() as f64;
+        let loads = loads(scene);
+        let fixed = match scene.numerics.stepping {
+            Stepping::Fixed { revolutions } => {
+                Some((scene.operation.pinion_revolutions / revolutions).ceil() + snapshots)
+            }
+            Stepping::Adaptive { .. } => None,
+        };
+        let elements = [false, true].map(|verifies| PlaneElements::of(scene, pair, &contact, verifies));
+        let [own, verifying] = elements;
+        let own = PlaneElements { mesh_cycles: fixed.unwrap_or(own.mesh_cycles), ..own };
+        Self {
+            mesh_cycles: fixed.unwrap_or_else(|| contact.cycles(ON_POINTS, point_mm).max(2.0 * snapshots)),
+            contact,
+            positions: scene.numerics.positions as f64 * loads,
+            points: scene.numerics.flank_points as f64 * loads,
+            point_mm,
+            loads,
+            slices: scene.slices.map(|slices| slices.count as f64),
+            elements: [own, verifying],
+        }
+    }
+
+    /// Time of a stage, s.
+    pub(super) fn seconds(&self, kind: StageKind, scene: &Scene) -> f64 {
+        let [own, verifying] = &self.elements;
+        let surface = scene.contact.surface;
+        let positions = match surface {
+            SurfaceKind::HalfSpace if self.slices.is_some() => self.positions + self.points / POINTS_OF_POSITION,
+            _ => self.positions,
+        };
+        let contacts = positions * self.slices.unwrap_or(1.0);
+        match kind {
+            StageKind::FiniteElementModel | StageKind::FiniteElementCalibration => own.model_s(),
+            StageKind::TeethInSpace => IN_SPACE_S * (layers_in_space(scene) as f64).powi(2),
+            StageKind::StepBound => self.wear_run(surface, contacts, STEP_BOUND_CYCLES),
+            StageKind::Simulation => self.wear_run(surface, contacts, self.mesh_cycles),
+            StageKind::ErrorEstimates if is_estimated_by_verification(scene) => 0.0,
+            StageKind::ErrorEstimates => {
+                let [severe, fixed, adaptive] = ERROR_ESTIMATES;
+                let over_run = match scene.numerics.stepping {
+                    _ if scene.wear.may_be_severe() => severe,
+                    Stepping::Fixed { .. } => fixed,
+                    Stepping::Adaptive { .. } => adaptive,
+                };
+                over_run * self.seconds(StageKind::Simulation, scene)
+            }
+            StageKind::Verification => match self.contacts_of_verified_slices(scene) {
+                Some(contacts) => {
+                    let cycles = self.contact.cycles(OF_VERIFIED_SLICES, self.point_mm);
+                    self.wear_run(SurfaceKind::HalfSpace, contacts, cycles)
+                }
+                None => verifying.wear_run_s() + if verifying.are_own { verifying.model_s() } else { 0.0 },
+            },
+            StageKind::Report => {
+                OUTPUT_S * scene.numerics.flank_points as f64 * self.slices.map_or(0.0, |slices| 2.0 * slices)
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// Contacts of slices at all positions of a verification; none of a plane one.
+    fn contacts_of_verified_slices(&self, scene: &Scene) -> Option<f64> {
+        let (positions, least, over_own) = VERIFIED_SLICES;
+        let own = self.slices?;
+        Some(positions * self.loads * if is_finest_in_space(scene) { over_own * own } else { own.max(least) })
+    }
+
+    /// Flank points in a contact at the pitch point.
+    fn in_contact(&self) -> f64 {
+        2.0 * self.contact.half_width_mm / self.point_mm
+    }
+
+    /// Time of a wear run on so many contacts, s.
+    fn wear_run(&self, surface: SurfaceKind, contacts: f64, cycles: f64) -> f64 {
+        let (prepared_us, cycle_us) = match (surface, self.slices.is_some()) {
+            (SurfaceKind::Fem, _) => return self.elements[0].wear_run_s(),
+            (SurfaceKind::HalfSpace, false) => (120.0, 5.5),
+            (SurfaceKind::HalfSpace, true) => (95.0, 11.0),
+            (SurfaceKind::Winkler, false) => (60.0, 2.5),
+            (SurfaceKind::Winkler, true) => (50.0, 5.0),
+            (SurfaceKind::Hertz, false) => (35.0, 3.0),
+            (SurfaceKind::Hertz, true) => (28.0, 6.5),
+            (SurfaceKind::HertzMean, false) => (22.0, 0.5),
+            (SurfaceKind::HertzMean, true) => (0.8, 0.3),
+        };
+        // Measured with 20 points in contact.
+        let of_points = ((10.0 + self.in_contact()) / 30.0).powf(0.6);
+        1e-6 * of_points * contacts * (prepared_us + cycles * cycle_us)
+    }
+
+    /// Peak memory, GB.
+    pub(super) fn memory_gb(&self, scene: &Scene, plan: &Plan) -> f64 {
+        let [without, with_slices, with_elements] = PROGRAM_GB;
+        let [own, verifying] = &self.elements;
+        let plane = if plan.has(StageKind::FiniteElementModel) { with_elements + own.model_gb() } else { without };
+        let is_verified = plan.has(StageKind::Verification);
+        let Some(slices) = self.slices else {
+            let own = if scene.contact.surface == SurfaceKind::Fem { own.positions_gb() } else { 0.0 };
+            return plane + own.max(if is_verified { verifying.positions_gb() } else { 0.0 });
+        };
+        let of_contact_kb = match scene.contact.surface {
+            SurfaceKind::Winkler | SurfaceKind::HalfSpace => 5.0 + 0.6 * self.in_contact(),
+            SurfaceKind::Hertz => 5.0 + 0.15 * self.in_contact(),
+            SurfaceKind::HertzMean | SurfaceKind::Fem => 1.0,
+        };
+        // Contacts of one load are held at a time.
+        let contacts = slices * self.positions / self.loads;
+        let in_space = if plan.has(StageKind::TeethInSpace) { memory_in_space_gb(scene) } else { 0.0 };
+        plane.max(with_slices + 1e-6 * of_contact_kb * contacts + in_space)
+    }
+}
+
+impl PlaneElements {
+    fn of(scene: &Scene, pair: &GearPair, contact: &PitchContact, verifies: bool) -> Self {
+        let is_coarser = verifies && scene.contact.surface == SurfaceKind::Fem;
+        let coarser = if is_coarser { 1.5 } else { 1.0 };
+        let in_half_width = scene.wear_elements_per_half_width / coarser;
+        let positions = match (is_coarser, verifies) {
+            (false, true) => VERIFIED_POSITIONS as f64,
+            _ => scene.numerics.positions as f64 / coarser,
+        };
+        let half_width_mm = contact.half_width_mm;
+        let rounding_mm = Gear::BOTH.map(|gear| pair.spec.tip_rounding_mm(gear));
+        let rounded = || rounding_mm.into_iter().filter(|rounding| *rounding > 0.0);
+        let on_rounding_mm = |refinement: f64| {
+            rounded().map(move |rounding| (rounding, rounding_element_mm(rounding, in_half_width, refinement)))
+        };
+        let is_hardly_worn = on_rounding_mm(1.0)
+            .any(|(radius, element)| contact.depth_mm < HARDLY_WORN * element.powi(2) / (8.0 * radius));
+        let refinement = if verifies && is_hardly_worn { REFINED } else { 1.0 };
+        let shortest_mm =
+            on_rounding_mm(refinement).map(|(_, element)| element).fold(half_width_mm / in_half_width, f64::min);
+        // Elements of a rounding reach over the flank that it touches, as far as the contact is wide.
+        let over_rounding = |rounding: f64, most: f64| {
+            if rounding > 0.0 { (half_width_mm / rounding).min(most) } else { 0.0 }
+        };
+        let [pinion, wheel] = rounding_mm;
+        let nodes = [(Gear::Pinion, pinion, wheel), (Gear::Wheel, wheel, pinion)].map(|(gear, own, mate)| {
+            let of_flank = 9.0 + 1.27 * flank_mm(pair, gear) / half_width_mm;
+            let of_rounding = if own > 0.0 { 22.0 } else { 0.0 };
+            in_half_width * (of_flank + refinement * (of_rounding + 19.0 * over_rounding(mate, 40.0 / refinement)))
+        });
+        let at_edges: f64 =
+            rounding_mm.into_iter().map(|rounding| refinement * over_rounding(rounding, 15.0 / refinement)).sum();
+        let even_mm = (pair.path.end_mm - pair.path.start_mm) / positions;
+        let [away_mm, edges_mm] = [(0.5, 0.5, 4.0), (0.15, 0.25, 1.0)]
+            .map(|(part, least, most)| (part * half_width_mm).clamp(least * even_mm, most * even_mm));
+        let pitch_mm = pair.path.base_pitch_mm;
+        let of_edges_mm = pitch_mm.min(8.0 * half_width_mm);
+        Self {
+            nodes,
+            multipliers: in_half_width / 3.0 * (10.5 + 13.3 * at_edges),
+            positions: 1.9 * loads(scene) * ((pitch_mm - of_edges_mm) / away_mm + of_edges_mm / edges_mm),
+            mesh_cycles: contact.cycles(ON_ELEMENTS, shortest_mm),
+            are_own: refinement > 1.0 || is_coarser,
+        }
+    }
+
+    /// Time to mesh and to condense both gears, s.
+    fn model_s(&self) -> f64 {
+        self.nodes.iter().map(|nodes| 0.013 + 1e-4 * nodes + 8e-8 * nodes * nodes).sum()
+    }
+
+    /// Time of a wear run, its preparation included, s.
+    fn wear_run_s(&self) -> f64 {
+        let squared = self.multipliers.powi(2);
+        1e-6 * self.positions * (250.0 + 0.039 * squared + self.mesh_cycles * (11.0 + 0.0012 * squared))
+    }
+
+    /// Memory of the condensed gears, GB.
+    fn model_gb(&self) -> f64 {
+        1.1e-7 * self.nodes.iter().map(|nodes| nodes * nodes).sum::<f64>()
+    }
+
+    /// Memory of the positions, GB: some three matrices of the multipliers each.
+    fn positions_gb(&self) -> f64 {
+        2.3e-8 * self.positions * self.multipliers.powi(2)
+    }
+}
+
+/// Length of a flank along its involute, mm.
+fn flank_mm(pair: &GearPair, gear: Gear) -> f64 {
+    pair.teeth[gear].involute.arc_mm(pair.teeth[gear].tip_rho_mm())
+}
