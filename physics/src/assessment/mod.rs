@@ -55,6 +55,9 @@ use stability::Judged;
 use stage_clock::StageClock;
 use verification::{VerificationModels, Verified};
 
+/// Part of the announced memory without which a run is refused: nine in ten announcements are within a factor of two.
+const NEEDED_AT_LEAST: f64 = 0.5;
+
 /// Result of a computation, with the failure that ended it early.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Done<R = RunRecord, E = RunError> {
@@ -162,7 +165,7 @@ fn announced<R>(
     if let Some(much) = cost.announcement() {
         observer.announcement(&much);
     }
-    if !memory::can_be_had((cost.memory_gb * 1e9) as u64) {
+    if !memory::can_be_had((NEEDED_AT_LEAST * cost.memory_gb * 1e9) as u64) {
         return Err(RunError::Memory { gb: cost.memory_gb });
     }
     prepared(inputs, observer, carry_out)

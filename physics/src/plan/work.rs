@@ -203,13 +203,13 @@ impl Work {
     fn wear_run(&self, surface: SurfaceKind, contacts: f64, cycles: f64) -> f64 {
         let (prepared_us, cycle_us) = match (surface, self.slices.is_some()) {
             (SurfaceKind::Fem, _) => return self.elements[0].wear_run_s(),
-            (SurfaceKind::HalfSpace, false) => (120.0, 5.5),
+            (SurfaceKind::HalfSpace, false) => (160.0, 7.0),
             (SurfaceKind::HalfSpace, true) => (95.0, 11.0),
-            (SurfaceKind::Winkler, false) => (60.0, 2.5),
+            (SurfaceKind::Winkler, false) => (95.0, 4.0),
             (SurfaceKind::Winkler, true) => (50.0, 5.0),
-            (SurfaceKind::Hertz, false) => (35.0, 3.0),
+            (SurfaceKind::Hertz, false) => (45.0, 4.0),
             (SurfaceKind::Hertz, true) => (28.0, 6.5),
-            (SurfaceKind::HertzMean, false) => (22.0, 0.5),
+            (SurfaceKind::HertzMean, false) => (25.0, 0.6),
             (SurfaceKind::HertzMean, true) => (0.8, 0.3),
         };
         // Measured with 20 points in contact.
@@ -301,9 +301,9 @@ impl PlaneElements {
         1.1e-7 * self.nodes.iter().map(|nodes| nodes * nodes).sum::<f64>()
     }
 
-    /// Memory of the positions, GB: some three matrices of the multipliers each.
+    /// Memory of the positions, GB: some two matrices of the multipliers each.
     fn positions_gb(&self) -> f64 {
-        2.3e-8 * self.positions * self.multipliers.powi(2)
+        1.5e-8 * self.positions * self.multipliers.powi(2)
     }
 }
 
