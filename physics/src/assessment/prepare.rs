@@ -16,7 +16,7 @@ use crate::mesh_cycle::pair_in_space::{PairInSpace, PairInSpaceError};
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::mesh_cycle::slice_coupling::SliceCompliance;
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
-use crate::operation::Scene;
+use crate::operation::{LEAST_MESHED_LOAD, Scene};
 use crate::plan::{Plan, StageKind};
 use crate::simulation::wear_run::RunPhase;
 use crate::stiffness::curve::PairCompliance;
@@ -29,10 +29,6 @@ use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
 use gearwear_bodies::gear_fem::model::ModelError;
 use gearwear_bodies::material::Material;
 use gearwear_bodies::reference::flattening::Flattening;
-
-/// Least load, over the greatest of all phases, whose contact the wearing elements are meshed for: half as wide as that of the greatest. Phases
-/// under less load have fewer elements in contact, and little wear.
-const LEAST_MESHED_LOAD: f64 = 0.25;
 
 /// Plane finite elements for both stiffness and verification; none where the plan has neither, or where the elements themselves wear.
 pub(super) fn elements<'a>(

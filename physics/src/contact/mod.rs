@@ -149,7 +149,8 @@ pub struct Footprint {
     pub peak_pressure_mpa: f64,
     /// Half the extent of the contact strip, mm.
     pub half_width_mm: f64,
-    /// Half-width of the heated strip, mm: on elastic half-planes that of Hertz's ellipse with the same second moment, otherwise half the extent.
+    /// Half-width of the heated strip, mm: on elastic half-planes and finite elements that of Hertz's ellipse with the same second moment, otherwise half
+    /// the extent.
     pub equivalent_half_width_mm: f64,
     /// Whether a sharp edge cuts the contact off: its pressure is then not defined, and grows with every refinement.
     pub at_sharp_edge: bool,

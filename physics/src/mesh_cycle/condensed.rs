@@ -16,7 +16,7 @@ use rayon::prelude::*;
 
 use self::stretches::BasePitch;
 use super::collected::Collected;
-use super::condensed_contact::{CondensedContactPlace, HeatedContactRows};
+use super::condensed_contact::{CondensedContactPlace, HeatedContactRows, equivalent_half_width_mm};
 use super::load_sharing::EquilibriumError;
 use super::{CycleObservation, FlankOverlap, GROUPS, LostMaterial, MeshCycle, Work, kept_wear_to_mpa};
 use crate::lubrication::running_pair::LoadedPlace;
@@ -499,6 +499,15 @@ impl CondensedPosition {
             }
         }
         turns || reshapes || moves
+    }
+
+    /// Half-width of the heated strip of a tooth pair, mm; 0 without load.
+    fn equivalent_half_width_mm(&self, pair: i32, found: &ContactEquilibrium) -> f64 {
+        let contact = self.transfers.iter().find(|contact| contact.pair == pair);
+        contact.map_or(0.0, |contact| {
+            let force = &found.force[contact.first_row..contact.first_row + contact.len()];
+            equivalent_half_width_mm(contact, force.iter().copied())
+        })
     }
 
     /// Adds the wear of the nodes of both flanks.

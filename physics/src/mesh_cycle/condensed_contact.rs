@@ -113,14 +113,13 @@ impl HeatedContactRows {
         let length_mm = stretch_mm.1 - stretch_mm.0;
         let rolling = PerGear::from_fn(|gear| model.pair.rolling_ratio(gear, place.position_mm()));
         let loads = pressure_mpa.iter().zip(&contact.weight_mm).map(|(pressure, weight)| pressure * weight);
-        let cells = loads.clone().zip(contact.along_mm.iter().zip(&contact.weight_mm));
-        let cells = cells.map(|(load, (&centre_mm, &width_mm))| LoadedCell { load, centre_mm, width_mm });
+        let half_width_mm = equivalent_half_width_mm(contact, loads.clone());
         let sum: f64 = loads.clone().sum();
         let slid: f64 = loads.zip(&contact.sliding_mm).map(|(load, sliding_mm)| load * sliding_mm).sum();
         let strip = HeatedStrip {
             ratios: SpeedRatios { sliding: slid / sum / length_mm, rolling },
             line_load_n_per_mm: sum,
-            half_width_mm: HALF_WIDTH_OF_ELLIPSE * standard_deviation_mm(cells),
+            half_width_mm,
             friction_coefficient,
         };
         let heated = HeatedContact { heat, strip };
@@ -149,6 +148,13 @@ impl HeatedContactRows {
         self.conditions.extend(contact.along_mm.iter().map(|&at| even[even_rows.at(at)]));
         &self.conditions
     }
+}
+
+/// Half-width of Hertz's ellipse with the same second moment as the loads of the rows of a contact, mm.
+pub(super) fn equivalent_half_width_mm(contact: &LoadTransfer, loads: impl Iterator<Item = f64>) -> f64 {
+    let cells = loads.zip(contact.along_mm.iter().zip(&contact.weight_mm));
+    let cells = cells.map(|(load, (&centre_mm, &width_mm))| LoadedCell { load, centre_mm, width_mm });
+    HALF_WIDTH_OF_ELLIPSE * standard_deviation_mm(cells)
 }
 
 /// Evenly spaced rows of a contact along the profile of a gear, from root to tip.

@@ -21,6 +21,9 @@ pub use phase_conditions::mean_friction;
 
 /// Least half-width of contact at the pitch point that is meshed, in modules: the flank then has some thousand nodes.
 pub(crate) const LEAST_HALF_WIDTH_MODULES: f64 = 0.015;
+/// Least load, over the greatest of all phases, whose contact the wearing elements are meshed for: half as wide as that of the greatest. Phases
+/// under less load have fewer elements in contact, and little wear.
+pub(crate) const LEAST_MESHED_LOAD: f64 = 0.25;
 /// Refinement of the elements of tip roundings of an internal pair that wears: with 1 they moved the wear of the wheel's tip edge by up to 6 %, now up and
 /// now down.
 const ON_ROUNDINGS_INSIDE: f64 = 1.5;
@@ -82,11 +85,11 @@ impl Scene {
         Self { contact, ..self.clone() }
     }
 
-    /// Whether contact at the pitch point is wide enough under the greatest load for finite elements of a reasonable size; otherwise the reason.
+    /// Checks that contact at the pitch point is wide enough under the greatest load for finite elements of a reasonable size.
     ///
     /// # Errors
     /// What is too narrow.
-    pub fn contact_can_be_meshed(&self, pair: &GearPair) -> Result<(), String> {
+    pub fn check_contact_can_be_meshed(&self, pair: &GearPair) -> Result<(), String> {
         let [_, greatest_n_mm] = self.operation.torque_range_n_mm();
         let half_width_mm = self.half_width_at_pitch_mm(pair, greatest_n_mm);
         let least_mm = LEAST_HALF_WIDTH_MODULES * self.pair.normal_module_mm;

@@ -211,7 +211,7 @@ fn verification(scene: &Scene) -> Result<String, String> {
         return Ok("numerics.verify: the same wear simulation on coarser finite elements".to_owned());
     }
     // A pair that cannot be is refused before any stage.
-    GearPair::new(&scene.pair).map_or(Ok(()), |pair| scene.contact_can_be_meshed(&pair))?;
+    GearPair::new(&scene.pair).map_or(Ok(()), |pair| scene.check_contact_can_be_meshed(&pair))?;
     Ok("numerics.verify: the same wear simulation with finite elements, which gives error.total".to_owned())
 }
 

@@ -15,7 +15,7 @@ use super::{
 };
 use crate::contact::hertz;
 use crate::contact::settings::SurfaceKind;
-use crate::operation::Scene;
+use crate::operation::{LEAST_HALF_WIDTH_MODULES, LEAST_MESHED_LOAD, Scene};
 use crate::simulation::settings::Stepping;
 use crate::wear::settings::WearOfPair;
 use crate::wear::vdi_2736::mean_wear_mm;
@@ -38,7 +38,7 @@ const POINTS_OF_POSITION: f64 = 12.0;
 const VERIFIED_POSITIONS: usize = 400;
 /// Positions of the verification of slices, its least number of slices, and its slices over the run's own.
 const VERIFIED_SLICES: (f64, f64, f64) = (150.0, 26.0, 1.3);
-/// Greatest radius of a tip rounding's elements over which these are refined where its edge is hardly worn.
+/// Refinement of the elements of a verification on tip roundings whose edge is hardly worn.
 const REFINED: f64 = 3.0;
 /// Depth of wear of an edge over the bulge of an element there, below which it is hardly worn.
 const HARDLY_WORN: f64 = 10.0;
@@ -52,6 +52,8 @@ const PROGRAM_GB: [f64; 3] = [0.016, 0.035, 0.04];
 /// Mesh cycles c₀ and c₁ of a run, and those with severe wear over those without.
 struct CycleCounts(f64, f64, f64);
 
+/// Mesh cycles from which they grow no more: the wear of flanks that hardly touch is not as stiff as this.
+const MOST_CYCLES: f64 = 1000.0;
 const ON_POINTS: CycleCounts = CycleCounts(8.0, 3.0, 2.0);
 const ON_ELEMENTS: CycleCounts = CycleCounts(6.5, 4.3, 4.0);
 /// The steps of this verification are closer.
@@ -118,7 +120,8 @@ impl PitchContact {
     /// Mesh cycles of adaptive steps where points or nodes are `apart_mm` apart.
     fn cycles(&self, CycleCounts(least, of_root, severe): CycleCounts, apart_mm: f64) -> f64 {
         let stiffness = GREATEST_DEPTH * self.depth_mm / (self.strain * apart_mm);
-        (least + of_root * stiffness.sqrt()) * if self.is_severe { severe } else { 1.0 }
+        let cycles = (least + of_root * stiffness.sqrt()) * if self.is_severe { severe } else { 1.0 };
+        cycles.min(MOST_CYCLES)
     }
 }
 
@@ -248,7 +251,12 @@ impl PlaneElements {
             (false, true) => VERIFIED_POSITIONS as f64,
             _ => scene.numerics.positions as f64 / coarser,
         };
-        let half_width_mm = contact.half_width_mm;
+        let half_width_mm = if scene.contact.surface == SurfaceKind::Fem {
+            contact.half_width_mm * wearing_elements_load(scene.operation.torque_range_n_mm()).sqrt()
+        } else {
+            // Narrower contact is meshed as this.
+            contact.half_width_mm.max(LEAST_HALF_WIDTH_MODULES * pair.spec.normal_module_mm)
+        };
         let rounding_mm = Gear::BOTH.map(|gear| pair.spec.tip_rounding_mm(gear));
         let rounded = || rounding_mm.into_iter().filter(|rounding| *rounding > 0.0);
         let on_rounding_mm = |refinement: f64| {
@@ -273,7 +281,7 @@ impl PlaneElements {
             rounding_mm.into_iter().map(|rounding| refinement * over_rounding(rounding, 15.0 / refinement)).sum();
         let even_mm = (pair.path.end_mm - pair.path.start_mm) / positions;
         let [away_mm, edges_mm] = [(0.5, 0.5, 4.0), (0.15, 0.25, 1.0)]
-            .map(|(part, least, most)| (part * half_width_mm).clamp(least * even_mm, most * even_mm));
+            .map(|(part, least, most)| (part * half_width_mm).max(least * even_mm).min(most * even_mm));
         let pitch_mm = pair.path.base_pitch_mm;
         let of_edges_mm = pitch_mm.min(8.0 * half_width_mm);
         Self {
@@ -310,4 +318,9 @@ impl PlaneElements {
 /// Length of a flank along its involute, mm.
 fn flank_mm(pair: &GearPair, gear: Gear) -> f64 {
     pair.teeth[gear].involute.arc_mm(pair.teeth[gear].tip_rho_mm())
+}
+
+/// Load that finite elements which wear are meshed for, over the greatest of all phases: half-widths go with its root.
+fn wearing_elements_load([least, greatest]: [f64; 2]) -> f64 {
+    (least / greatest).max(LEAST_MESHED_LOAD)
 }

@@ -99,7 +99,7 @@ pub(super) fn contact(
 /// Puts a scene that leaves its surface open on elastic half-planes where finite elements for its contact would be too many, with a warning.
 pub(super) fn leave_elements_out(scene: &mut Scene, pair: &GearPair) -> Option<String> {
     let too_narrow = scene.surface_by_default && scene.contact.surface == SurfaceKind::Fem;
-    (too_narrow && scene.contact_can_be_meshed(pair).is_err()).then(|| {
+    (too_narrow && scene.check_contact_can_be_meshed(pair).is_err()).then(|| {
         *scene = scene.on_half_planes();
         "contact.surface: elastic half-planes, as the contact is too narrow for finite elements, the default".to_owned()
     })

@@ -168,7 +168,7 @@ impl CondensedCycle<'_> {
                     footprint: pair.map_or_else(Footprint::default, |pair| Footprint {
                         peak_pressure_mpa: pair.peak_pressure_mpa,
                         half_width_mm: pair.half_width_mm,
-                        equivalent_half_width_mm: pair.half_width_mm,
+                        equivalent_half_width_mm: loaded.equivalent_half_width_mm(ahead, equilibrium),
                         at_sharp_edge: pair.at_sharp_edge,
                     }),
                 }
@@ -176,19 +176,27 @@ impl CondensedCycle<'_> {
         }
         found.sort_by(|a, b| a.position_mm.total_cmp(&b.position_mm));
         let places: Vec<f64> = found.iter().map(|at| at.position_mm).collect();
-        let figures: [fn(&PositionObservation) -> f64; 6] = [
+        let figures: [fn(&PositionObservation) -> f64; 7] = [
             |at| at.transmission_error_mm,
             |at| at.stiffness_n_per_mm2.unwrap_or_default(),
             |at| at.load_share,
             |at| at.load_imbalance,
             |at| at.footprint.peak_pressure_mpa,
             |at| at.footprint.half_width_mm,
+            |at| at.footprint.equivalent_half_width_mm,
         ];
         let values = figures.map(|figure| found.iter().map(figure).collect::<Vec<f64>>());
         let courses = values.each_ref().map(|values| MonotoneCubic::new(&places, values));
         let observed = self.observation_mm.iter().map(|&position_mm| {
-            let [transmission_error_mm, stiffness, load_share, load_imbalance, peak_pressure_mpa, half_width_mm] =
-                courses.each_ref().map(|course| course.at(position_mm));
+            let [
+                transmission_error_mm,
+                stiffness,
+                load_share,
+                load_imbalance,
+                peak_pressure_mpa,
+                half_width_mm,
+                equivalent_half_width_mm,
+            ] = courses.each_ref().map(|course| course.at(position_mm));
             // Between two positions of which one is at a sharp edge, all counts as at a sharp edge.
             let after = places.partition_point(|&place| place < position_mm);
             let around = &found[after.saturating_sub(1)..(after + 1).min(found.len())];
@@ -199,12 +207,7 @@ impl CondensedCycle<'_> {
                 stiffness_n_per_mm2: Some(stiffness),
                 load_share,
                 load_imbalance,
-                footprint: Footprint {
-                    peak_pressure_mpa,
-                    half_width_mm,
-                    equivalent_half_width_mm: half_width_mm,
-                    at_sharp_edge,
-                },
+                footprint: Footprint { peak_pressure_mpa, half_width_mm, equivalent_half_width_mm, at_sharp_edge },
             }
         });
         observed.collect()
