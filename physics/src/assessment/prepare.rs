@@ -16,7 +16,7 @@ use crate::mesh_cycle::pair_in_space::{PairInSpace, PairInSpaceError};
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::mesh_cycle::slice_coupling::SliceCompliance;
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
-use crate::operation::{LEAST_MESHED_LOAD, Scene};
+use crate::operation::Scene;
 use crate::plan::{Plan, StageKind};
 use crate::simulation::wear_run::RunPhase;
 use crate::stiffness::curve::PairCompliance;
@@ -53,8 +53,7 @@ pub(super) fn wearing_elements<'a>(
 ) -> Result<Option<CondensedPair<'a>>, ModelError> {
     let (scene, observer) = (inputs.scene, stages.observer);
     let wearing = (scene.contact.surface == SurfaceKind::Fem).then(|| {
-        let [least, greatest] = scene.operation.torque_range_n_mm().map(|torque| pair.line_load_n_per_mm(torque));
-        let load = least.max(LEAST_MESHED_LOAD * greatest);
+        let load = pair.line_load_n_per_mm(scene.meshed_torque_n_mm());
         stages.run(StageKind::FiniteElementModel.name(), || {
             verification::condensed(scene, pair, load, &scene.wear_bodies(), (inputs.elements, observer))
         })

@@ -11,8 +11,8 @@
 //! So P^{2/3} is a straight line there, and its zero, from the loads of the two and of the three outermost cells, is the end
 //! of the contact: to second order in the width of the cells, though the cells themselves know it to half a width only.
 
-use super::Footprint;
-use super::standard_deviation::{HALF_WIDTH_OF_ELLIPSE, LoadedCell, standard_deviation_mm};
+use super::standard_deviation::{HALF_WIDTH_OF_ELLIPSE, standard_deviation_mm};
+use super::{Footprint, PressedCell};
 
 /// Number of cells whose loads determine the end of a contact.
 const END_CELLS: usize = 3;
@@ -192,10 +192,9 @@ impl PressureField {
     /// Greatest pressure, between the cells' centres, half the extent, and the half-width of Hertz's ellipse with the same second moment.
     pub(crate) fn footprint(&self) -> Footprint {
         let (lower, upper) = self.extent_mm;
-        let cells = self.pressure_mpa.iter().zip(0..).map(|(&load, k)| LoadedCell {
-            load,
-            centre_mm: f64::from(k) * self.width_mm,
-            width_mm: self.width_mm,
+        let cells = self.pressure_mpa.iter().zip(0..).map(|(&pressure_mpa, k)| {
+            let lower_mm = f64::from(k) * self.width_mm;
+            PressedCell { lower_mm, upper_mm: lower_mm + self.width_mm, pressure_mpa }
         });
         Footprint {
             peak_pressure_mpa: self.peak_mpa,

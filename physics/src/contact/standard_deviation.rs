@@ -6,21 +6,17 @@
 //! Pressure is even within each cell. Of a smooth pressure that falls to nothing at its ends this is too much by w²/6, w the width of the cells: 0.13 % of the
 //! half-width with 16 cells in it. A single cell has a width too.
 
+use super::PressedCell;
+
 /// Half-width of Hertz's ellipse over its standard deviation.
 pub(crate) const HALF_WIDTH_OF_ELLIPSE: f64 = 2.0;
 
-/// Cell of a contact under a load, of any unit.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct LoadedCell {
-    pub load: f64,
-    pub centre_mm: f64,
-    pub width_mm: f64,
-}
-
 /// Standard deviation of the places of the load, mm; 0 without load.
-pub(crate) fn standard_deviation_mm(cells: impl Iterator<Item = LoadedCell>) -> f64 {
+pub(crate) fn standard_deviation_mm(cells: impl Iterator<Item = PressedCell>) -> f64 {
     let (mut sum, mut first, mut second, mut within) = (0.0, 0.0, 0.0, 0.0);
-    for LoadedCell { load, centre_mm, width_mm } in cells {
+    for cell in cells {
+        let (load, centre_mm) = (cell.line_load_n_per_mm(), cell.lower_mm.midpoint(cell.upper_mm));
+        let width_mm = cell.upper_mm - cell.lower_mm;
         sum += load;
         first += load * centre_mm;
         second += load * centre_mm * centre_mm;
@@ -43,7 +39,7 @@ mod tests {
         standard_deviation_mm((0..cells).map(|k| {
             let lower_mm = -1.0 + f64::from(k) * width_mm;
             let load = load_below(lower_mm + width_mm) - load_below(lower_mm);
-            LoadedCell { load, centre_mm: lower_mm + 0.5 * width_mm, width_mm }
+            PressedCell { lower_mm, upper_mm: lower_mm + width_mm, pressure_mpa: load / width_mm }
         }))
     }
 
@@ -64,7 +60,8 @@ mod tests {
     #[test]
     fn ver_half_widths_do_not_jump_where_flanks_come_to_touch() {
         let with_load = |load: f64| {
-            let cell = |centre_mm: f64, load: f64| LoadedCell { load, centre_mm, width_mm: 0.1 };
+            let cell =
+                |lower_mm: f64, pressure_mpa: f64| PressedCell { lower_mm, upper_mm: lower_mm + 0.1, pressure_mpa };
             standard_deviation_mm([cell(0.0, 1.0), cell(0.1, 1.0), cell(5.0, load)].into_iter())
         };
         assert!((with_load(1e-9) / with_load(0.0) - 1.0).abs() < 1e-5);

@@ -2,7 +2,7 @@
 
 use crate::contact::PressedCell;
 use crate::contact::flank_pressure::ContactParts;
-use crate::contact::standard_deviation::{HALF_WIDTH_OF_ELLIPSE, LoadedCell, standard_deviation_mm};
+use crate::contact::standard_deviation::{HALF_WIDTH_OF_ELLIPSE, standard_deviation_mm};
 use crate::thermal::{ContactHeat, HeatedStrip, SpeedRatios};
 use crate::wear::{
     ContactConditions,
@@ -153,7 +153,7 @@ impl HeatedContactRows {
 /// Half-width of Hertz's ellipse with the same second moment as the loads of the rows of a contact, mm.
 pub(super) fn equivalent_half_width_mm(contact: &LoadTransfer, loads: impl Iterator<Item = f64>) -> f64 {
     let cells = loads.zip(contact.along_mm.iter().zip(&contact.weight_mm));
-    let cells = cells.map(|(load, (&centre_mm, &width_mm))| LoadedCell { load, centre_mm, width_mm });
+    let cells = cells.map(|(load, (at_mm, weight_mm))| cell(at_mm - 0.5 * weight_mm, at_mm + 0.5 * weight_mm, load));
     HALF_WIDTH_OF_ELLIPSE * standard_deviation_mm(cells)
 }
 

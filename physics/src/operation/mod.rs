@@ -23,7 +23,15 @@ pub use phase_conditions::mean_friction;
 pub(crate) const LEAST_HALF_WIDTH_MODULES: f64 = 0.015;
 /// Least load, over the greatest of all phases, whose contact the wearing elements are meshed for: half as wide as that of the greatest. Phases
 /// under less load have fewer elements in contact, and little wear.
-pub(crate) const LEAST_MESHED_LOAD: f64 = 0.25;
+const LEAST_MESHED_LOAD: f64 = 0.25;
+/// Positions from A to E of the verification of other surfaces than finite elements.
+pub(crate) const VERIFIED_POSITIONS: usize = 400;
+/// Length of elements and distance of positions of the verification of a run on finite elements, over those of the run.
+pub(crate) const COARSER: f64 = 1.5;
+/// Wear of a tip edge over the bulge of an element of its rounding, below which it is hardly worn and a verification refines the elements there.
+pub(crate) const HARDLY_WORN_BULGES: f64 = 10.0;
+/// Refinement of the elements of hardly worn roundings.
+pub(crate) const ON_HARDLY_WORN_EDGES: f64 = 3.0;
 /// Refinement of the elements of tip roundings of an internal pair that wears: with 1 they moved the wear of the wheel's tip edge by up to 6 %, now up and
 /// now down.
 const ON_ROUNDINGS_INSIDE: f64 = 1.5;
@@ -100,6 +108,12 @@ impl Scene {
             "the contact is too narrow to be meshed: its half-width at the pitch point is {half_width_mm:.2e} mm, at least {least_mm:.2e} mm is \
              wanted, for narrower contact takes too many elements"
         ))
+    }
+
+    /// Torque on the pinion that finite elements which wear are meshed for, N mm.
+    pub(crate) fn meshed_torque_n_mm(&self) -> f64 {
+        let [least_n_mm, greatest_n_mm] = self.operation.torque_range_n_mm();
+        least_n_mm.max(LEAST_MESHED_LOAD * greatest_n_mm)
     }
 
     /// Half-width of Hertz's contact at C under a torque on the pinion, mm.

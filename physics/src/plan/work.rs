@@ -15,7 +15,9 @@ use super::{
 };
 use crate::contact::hertz;
 use crate::contact::settings::SurfaceKind;
-use crate::operation::{LEAST_HALF_WIDTH_MODULES, LEAST_MESHED_LOAD, Scene};
+use crate::operation::{
+    COARSER, HARDLY_WORN_BULGES, LEAST_HALF_WIDTH_MODULES, ON_HARDLY_WORN_EDGES, Scene, VERIFIED_POSITIONS,
+};
 use crate::simulation::settings::Stepping;
 use crate::wear::settings::WearOfPair;
 use crate::wear::vdi_2736::mean_wear_mm;
@@ -34,14 +36,8 @@ const ERROR_ESTIMATES: [f64; 3] = [2.2, 0.8, 0.15];
 /// Flank points that take as long as a position on half-planes in slices: all pass through contact, however few the positions. Measured on the preset
 /// `helical` with 45 to 185 positions; on other surfaces, and without slices, the time is that of the positions.
 const POINTS_OF_POSITION: f64 = 12.0;
-/// Positions of the verification on plane finite elements.
-const VERIFIED_POSITIONS: usize = 400;
 /// Positions of the verification of slices, its least number of slices, and its slices over the run's own.
 const VERIFIED_SLICES: (f64, f64, f64) = (150.0, 26.0, 1.3);
-/// Refinement of the elements of a verification on tip roundings whose edge is hardly worn.
-const REFINED: f64 = 3.0;
-/// Depth of wear of an edge over the bulge of an element there, below which it is hardly worn.
-const HARDLY_WORN: f64 = 10.0;
 /// Time of the output of a flank point of a slice, s.
 const OUTPUT_S: f64 = 9e-6;
 /// Time of three-dimensional finite elements over the square of the number of elements over the face width, s.
@@ -245,14 +241,15 @@ impl Work {
 impl PlaneElements {
     fn of(scene: &Scene, pair: &GearPair, contact: &PitchContact, verifies: bool) -> Self {
         let is_coarser = verifies && scene.contact.surface == SurfaceKind::Fem;
-        let coarser = if is_coarser { 1.5 } else { 1.0 };
+        let coarser = if is_coarser { COARSER } else { 1.0 };
         let in_half_width = scene.wear_elements_per_half_width / coarser;
         let positions = match (is_coarser, verifies) {
             (false, true) => VERIFIED_POSITIONS as f64,
             _ => scene.numerics.positions as f64 / coarser,
         };
         let half_width_mm = if scene.contact.surface == SurfaceKind::Fem {
-            contact.half_width_mm * wearing_elements_load(scene.operation.torque_range_n_mm()).sqrt()
+            // a² is proportional to the load.
+            contact.half_width_mm * (scene.meshed_torque_n_mm() / scene.operation.torque_range_n_mm()[1]).sqrt()
         } else {
             // Narrower contact is meshed as this.
             contact.half_width_mm.max(LEAST_HALF_WIDTH_MODULES * pair.spec.normal_module_mm)
@@ -263,8 +260,8 @@ impl PlaneElements {
             rounded().map(move |rounding| (rounding, rounding_element_mm(rounding, in_half_width, refinement)))
         };
         let is_hardly_worn = on_rounding_mm(1.0)
-            .any(|(radius, element)| contact.depth_mm < HARDLY_WORN * element.powi(2) / (8.0 * radius));
-        let refinement = if verifies && is_hardly_worn { REFINED } else { 1.0 };
+            .any(|(radius, element)| contact.depth_mm < HARDLY_WORN_BULGES * element.powi(2) / (8.0 * radius));
+        let refinement = if verifies && is_hardly_worn { ON_HARDLY_WORN_EDGES } else { 1.0 };
         let shortest_mm =
             on_rounding_mm(refinement).map(|(_, element)| element).fold(half_width_mm / in_half_width, f64::min);
         // Elements of a rounding reach over the flank that it touches, as far as the contact is wide.
@@ -318,9 +315,4 @@ impl PlaneElements {
 /// Length of a flank along its involute, mm.
 fn flank_mm(pair: &GearPair, gear: Gear) -> f64 {
     pair.teeth[gear].involute.arc_mm(pair.teeth[gear].tip_rho_mm())
-}
-
-/// Load that finite elements which wear are meshed for, over the greatest of all phases: half-widths go with its root.
-fn wearing_elements_load([least, greatest]: [f64; 2]) -> f64 {
-    (least / greatest).max(LEAST_MESHED_LOAD)
 }

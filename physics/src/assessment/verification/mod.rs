@@ -25,9 +25,7 @@ mod uncertainty;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use self::uncertainty::{
-    HARDLY_WORN, OF_ELEMENTS, ON_HARDLY_WORN_EDGES, ReferenceUncertainty, of_hardly_worn_edge, of_hardly_worn_kink,
-};
+use self::uncertainty::{HARDLY_WORN, OF_ELEMENTS, ReferenceUncertainty, of_hardly_worn_edge, of_hardly_worn_kink};
 use super::RunModel;
 use super::guarded::guarded;
 use super::inputs::RunInputs;
@@ -37,7 +35,7 @@ use crate::mesh_cycle::pair_in_space::{PairInSpace, PairInSpaceError};
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::mesh_cycle::{CycleObservation, PositionObservation};
 use crate::observer::Observer;
-use crate::operation::{LEAST_HALF_WIDTH_MODULES, Scene};
+use crate::operation::{COARSER, LEAST_HALF_WIDTH_MODULES, ON_HARDLY_WORN_EDGES, Scene, VERIFIED_POSITIONS};
 use crate::plan::is_finest_in_space;
 use crate::results::error::{ErrorNewAndWorn, ErrorPerGear, ErrorSummary, TotalError};
 use crate::results::run::StopReason;
@@ -54,10 +52,6 @@ use gearwear_bodies::gear_mesh::settings::{BodySettings, kink_element_mm};
 use gearwear_bodies::material::{Material, contact_modulus_mpa};
 use gearwear_bodies::reference::flattening::Flattening;
 
-/// Positions from A to E of the check of other surfaces.
-const POSITIONS: usize = 400;
-/// Length of elements and distance of positions of the check of a run on finite elements, over those of the run.
-const COARSER: f64 = 1.5;
 /// Tolerance of the wear depth over the greatest depth.
 const TOLERANCE: f64 = 0.03;
 /// Least tolerance of the wear depth, mm.
@@ -251,7 +245,7 @@ fn on_elements<'a>(
 ) -> Result<ReferenceRun, String> {
     let scene = model.scene;
     let mut bodies = scene.wear_bodies();
-    let mut positions = POSITIONS;
+    let mut positions = VERIFIED_POSITIONS;
     if elements.is_none() {
         bodies.elements_per_half_width /= COARSER;
         positions = (scene.numerics.positions as f64 / COARSER).round() as usize;

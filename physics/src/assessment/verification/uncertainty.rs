@@ -1,5 +1,6 @@
 //! Uncertainties of the finite elements of a verification.
 
+use crate::operation::HARDLY_WORN_BULGES;
 use gearwear_bodies::gear::{Gear, GearPair};
 use gearwear_bodies::gear_mesh::settings::{BodySettings, rounding_element_mm};
 
@@ -28,9 +29,7 @@ pub(super) const OF_ELEMENTS: ReferenceUncertainty = ReferenceUncertainty {
 /// the element is placed to within the length of the element.
 const OF_BULGE: f64 = 0.01;
 /// Uncertainty of the tip-edge wear above which the elements of roundings are refined: the depth is less than ten times the bulge.
-pub(super) const HARDLY_WORN: f64 = 0.001;
-/// Refinement of the elements of hardly worn roundings.
-pub(super) const ON_HARDLY_WORN_EDGES: f64 = 3.0;
+pub(super) const HARDLY_WORN: f64 = OF_BULGE / HARDLY_WORN_BULGES;
 /// Greatest uncertainty of the wear of a tip edge.
 const MOST_OF_TIP_EDGE: f64 = 0.2;
 /// Uncertainty of the first wear at a kink, to which pressure rises with the logarithm of the distance until wear has rounded it. With elements three to six times as short, the wear of four
