@@ -12,13 +12,13 @@ use crate::contact::{
     settings::{Foundation, MatchCriterion, SurfaceKind},
     winkler::{Winkler, WinklerFoundation},
 };
+use crate::mesh_cycle::condensed::WearingElements;
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
 use crate::operation::Scene;
 use crate::plan::StageKind;
 use crate::simulation::mesh_contact::MeshContact;
 use crate::stiffness::{StiffnessError, TeethSpring, curve::PairCompliance, settings::StiffnessSettings};
 use gearwear_bodies::gear::{GearPair, PerGear};
-use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
 use gearwear_bodies::material::Material;
 
 /// Contact of the gears under one load, with one material.
@@ -28,7 +28,7 @@ pub(super) struct ContactCase<'a> {
     /// Stiffness along the path of contact, where it differs from that of the run.
     pub curve: Option<PairCompliance>,
     /// Wearing finite elements, where they differ from those of the run.
-    pub elements: Option<CondensedPair<'a>>,
+    pub elements: Option<WearingElements<'a>>,
     pub foundation_mpa_per_mm: Option<f64>,
     /// Contact surface of the springs on the line of action; none with finite elements.
     pub surface: Option<Box<dyn ContactSurface>>,
@@ -51,7 +51,7 @@ impl<'a> ContactCase<'a> {
     pub(super) fn mesh_contact<'s>(
         &'s self,
         scene: &'s Scene,
-        worn: Option<&'s CondensedPair<'a>>,
+        worn: Option<&'s WearingElements<'a>>,
         teeth: Option<&'s TeethSpring<'s>>,
         sliced: Option<&'s SlicedTeeth>,
     ) -> MeshContact<'s> {

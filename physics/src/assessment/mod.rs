@@ -360,6 +360,8 @@ fn verify<'a>(
         Some(reason) => Verified::none(reason),
         None => {
             let observer = stages.observer;
+            // The finite elements of the verification take their place.
+            model.phases.iter().for_each(|phase| phase.contact.drop_idle_positions());
             stages.run(StageKind::Verification.name(), || verification::verify(model, outcome, models, observer))
         }
     }

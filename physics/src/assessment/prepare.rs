@@ -12,6 +12,7 @@ use super::verification::{self, Elements};
 use crate::calibration::{self, CalibrationError};
 use crate::contact::settings::SurfaceKind;
 use crate::lubrication::running_pair::RunningPair;
+use crate::mesh_cycle::condensed::WearingElements;
 use crate::mesh_cycle::pair_in_space::{PairInSpace, PairInSpaceError};
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::mesh_cycle::slice_coupling::SliceCompliance;
@@ -70,7 +71,7 @@ pub(super) struct ToothElasticity<'a> {
     /// Reason why the stiffness model is not the default one.
     pub warning: Option<String>,
     /// Finite elements whose flank nodes wear in all phases; none of other surfaces.
-    worn: Option<CondensedPair<'a>>,
+    worn: Option<WearingElements<'a>>,
 }
 
 impl<'a> ToothElasticity<'a> {
@@ -84,7 +85,7 @@ impl<'a> ToothElasticity<'a> {
     ) -> Result<Self, RunError> {
         let setup = calibrate::setup(inputs.scene, pair);
         let (stiffness, computed, warning) = own_stiffness(inputs, plan, elements, &setup, stages)?;
-        Ok(Self { stiffness, computed, warning, worn })
+        Ok(Self { stiffness, computed, warning, worn: worn.map(WearingElements::new) })
     }
 
     /// Curve of the stiffness model in use, for the scene's own material.
@@ -153,7 +154,9 @@ impl<'a> ContactCases<'a> {
             let mut case = contact_case(inputs, pair, material, load, stages)?;
             if material != scene.material {
                 let worn = elasticity.worn.as_ref();
-                case.elements = worn.map(|elements| verification::of_material(elements, scene, &material));
+                let softer =
+                    |elements: &WearingElements<'a>| verification::of_material(&elements.model, scene, &material);
+                case.elements = worn.map(softer).map(WearingElements::new);
                 if let (Some(Ok(elements)), Some(_)) = (elements, &elasticity.computed) {
                     let line_load_n_per_mm = load.max(elements.line_load_n_per_mm);
                     let curve = stages.run(StageKind::FiniteElementCalibration.name(), || {

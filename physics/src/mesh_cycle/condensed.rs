@@ -11,14 +11,17 @@
 
 mod observation;
 mod stretches;
+mod wearing_elements;
 
 use rayon::prelude::*;
 
-use self::stretches::BasePitch;
+pub use self::wearing_elements::WearingElements;
+
+use self::wearing_elements::IdlePositions;
 use super::collected::Collected;
 use super::condensed_contact::{CondensedContactPlace, HeatedContactRows, equivalent_half_width_mm};
 use super::load_sharing::EquilibriumError;
-use super::{CycleObservation, FlankOverlap, GROUPS, LostMaterial, MeshCycle, Work, kept_wear_to_mpa};
+use super::{CycleObservation, FlankOverlap, LostMaterial, MeshCycle, Work, kept_wear_to_mpa};
 use crate::lubrication::running_pair::LoadedPlace;
 use crate::wear::{SlidingRow, WearModel};
 use gearwear_bodies::gear::{Gear, PerGear, flank_zones::FlankZones};
@@ -76,6 +79,8 @@ struct ContactRows {
 /// All positions of one base pitch, ready to be evaluated on ever newly worn flanks, whose places are the nodes of the flanks.
 pub struct CondensedCycle<'a> {
     model: &'a CondensedPair<'a>,
+    /// Elements that keep the positions for the next cycle; none of a cycle of its own.
+    elements: Option<&'a WearingElements<'a>>,
     line_load_n_per_mm: f64,
     nodes: PerGear<FlankNodes>,
     /// Nominal radii of the nodes, from root to tip.
@@ -94,6 +99,16 @@ pub struct CondensedCycle<'a> {
 impl<'a> CondensedCycle<'a> {
     /// Prepares positions about as close as `positions` from A to E.
     pub fn new(model: &'a CondensedPair<'a>, positions: usize, line_load_n_per_mm: f64) -> Self {
+        Self::with(model, positions, line_load_n_per_mm, None)
+    }
+
+    /// As [`Self::new`], with positions that were prepared already.
+    fn with(
+        model: &'a CondensedPair<'a>,
+        positions: usize,
+        line_load_n_per_mm: f64,
+        prepared: Option<IdlePositions>,
+    ) -> Self {
         let nodes = model.flank_nodes();
         let radius_mm = PerGear::from_fn(|gear| {
             let local = model.nominal_radius_mm(gear);
@@ -101,27 +116,17 @@ impl<'a> CondensedCycle<'a> {
             nodes[gear].place.iter().zip(local).for_each(|(&place, radius)| radius_mm[place] = radius);
             radius_mm
         });
-        let base_pitch = BasePitch::of(model, positions, line_load_n_per_mm);
-        let stretches = base_pitch.stretches_mm();
-        let groups = stretches
-            .par_chunks(stretches.len().div_ceil(GROUPS))
-            .map(|stretches| CondensedGroup {
-                loaded_positions: stretches
-                    .iter()
-                    .map(|&stretch| CondensedPosition::new(model, stretch, line_load_n_per_mm, nodes.as_ref()))
-                    .collect(),
-                collected: Collected::new(nodes.as_ref().map(FlankNodes::len)),
-                rows: ContactRows::default(),
-                kept_mm: PerGear::default(),
-            })
-            .collect();
+        let resolution = (positions, line_load_n_per_mm);
+        let IdlePositions { groups, after_jumps, .. } =
+            prepared.unwrap_or_else(|| IdlePositions::prepare(model, resolution, nodes.as_ref()));
         Self {
             model,
+            elements: None,
             line_load_n_per_mm,
             nodes,
             radius_mm,
             groups,
-            after_jumps: base_pitch.after_jumps(&stretches),
+            after_jumps,
             observation_mm: model.pair.path.evenly_mm(positions),
             zones: None,
             some_keep_wear: false,
@@ -129,8 +134,9 @@ impl<'a> CondensedCycle<'a> {
     }
 
     /// Adds figures of the pressure by the zones of the flanks.
-    pub(crate) fn observing(self, zones: PerGear<FlankZones>) -> Self {
-        Self { zones: Some(zones), ..self }
+    pub(crate) fn observing(mut self, zones: PerGear<FlankZones>) -> Self {
+        self.zones = Some(zones);
+        self
     }
 
     /// The nodes of both flanks.
@@ -155,6 +161,19 @@ impl<'a> CondensedCycle<'a> {
 
     fn loaded_positions(&self) -> impl Iterator<Item = &CondensedPosition> {
         self.groups.iter().flat_map(|group| &group.loaded_positions)
+    }
+}
+
+impl Drop for CondensedCycle<'_> {
+    fn drop(&mut self) {
+        if let Some(elements) = self.elements {
+            let (groups, after_jumps) = (std::mem::take(&mut self.groups), std::mem::take(&mut self.after_jumps));
+            elements.keep(IdlePositions {
+                resolution: (self.observation_mm.len(), self.line_load_n_per_mm),
+                groups,
+                after_jumps,
+            });
+        }
     }
 }
 

@@ -10,7 +10,7 @@ use crate::mesh_cycle::simplified::{SimplifiedPair, exact::SlicesInSeries};
 use crate::mesh_cycle::wearing_pair::{OnFlankPlaces, PointsBetweenNodes, WearingPair};
 use crate::mesh_cycle::{
     LineOfActionCycle, MeshCycle,
-    condensed::CondensedCycle,
+    condensed::WearingElements,
     positions::{loading_positions, positions_with_tip_contact},
     sliced::{SliceSprings, SlicedCycle},
     sliced_positions::{SliceEnds, sliced_positions},
@@ -21,7 +21,6 @@ use crate::mesh_cycle::{
 use crate::stiffness::{SpringParts, StiffnessError, TeethSpring};
 use gearwear_bodies::gear::removed_material::measured_flank_mm;
 use gearwear_bodies::gear::{GearPair, PerGear, flank_zones::FlankZones, slices::Slices};
-use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
 use gearwear_bodies::material::Material;
 
 /// The elastic model of the pair in mesh.
@@ -48,7 +47,7 @@ pub enum MeshContact<'a> {
         sliced: &'a SlicedTeeth,
     },
     /// Both gears as finite elements, condensed onto their flanks.
-    FiniteElements(&'a CondensedPair<'a>),
+    FiniteElements(&'a WearingElements<'a>),
 }
 
 /// Tip edges are looked at within this many times the approach at the pitch point under the whole load: off it the teeth
@@ -145,7 +144,22 @@ impl MeshContact<'_> {
                 tip_range_mm(pair, *surface, teeth, *sliced, line_load_n_per_mm)
             }
             MeshContact::LineOfAction { .. } | MeshContact::Simplified { .. } => Ok([0.0; 2]),
-            MeshContact::FiniteElements(model) => Ok(model.range_mm()),
+            MeshContact::FiniteElements(elements) => Ok(elements.model.range_mm()),
+        }
+    }
+
+    /// Whether both are on the same finite elements.
+    pub(super) fn is_on_elements_of(&self, other: &MeshContact<'_>) -> bool {
+        match (self, other) {
+            (MeshContact::FiniteElements(own), MeshContact::FiniteElements(others)) => std::ptr::eq(*own, *others),
+            _ => false,
+        }
+    }
+
+    /// Drops the positions that were prepared on finite elements and that no mesh cycle uses.
+    pub(crate) fn drop_idle_positions(&self) {
+        if let MeshContact::FiniteElements(elements) = self {
+            elements.drop_idle();
         }
     }
 
@@ -179,8 +193,8 @@ impl<'a> LoadedMesh<'a> {
             MeshContact::Simplified { material, teeth, sliced } => {
                 return Ok(Box::new(self.simplified(flanks, modification_mm, material, teeth, sliced)?));
             }
-            MeshContact::FiniteElements(model) => {
-                let cycle = CondensedCycle::new(model, count, line_load).observing(self.zones);
+            MeshContact::FiniteElements(elements) => {
+                let cycle = elements.cycle(count, line_load).observing(self.zones);
                 let between_nodes = PointsBetweenNodes {
                     radius_mm: PerGear::from_fn(|gear| {
                         let involute = self.pair.teeth[gear].involute;

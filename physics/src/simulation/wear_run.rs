@@ -331,6 +331,9 @@ impl WearRun<'_> {
         phase: &RunPhase<'b>,
         flanks: &'b UnwornFlanks,
     ) -> Result<Box<dyn WearingPair + 'b>, SimulationError> {
+        // Positions on other finite elements make room.
+        let others = self.phases.iter().map(|phase| phase.contact);
+        others.filter(|other| !other.is_on_elements_of(&phase.contact)).for_each(|other| other.drop_idle_positions());
         let mesh = LoadedMesh {
             pair: self.pair,
             contact: phase.contact,

@@ -14,7 +14,8 @@ use gearwear_bodies::gear_fem::position::WarmStart;
 use gearwear_bodies::gear_mesh::settings::{BodySettings, default_clamp};
 use gearwear_fem::elastic::Elastic;
 use gearwear_physics::contact::hertz;
-use gearwear_physics::mesh_cycle::{CycleObservation, MeshCycle, Work, condensed::CondensedCycle};
+use gearwear_physics::mesh_cycle::condensed::{CondensedCycle, WearingElements};
+use gearwear_physics::mesh_cycle::{CycleObservation, MeshCycle, Work};
 use gearwear_physics::wear::{
     WearModel,
     settings::{SevereTransition, WearSettings},
@@ -450,6 +451,48 @@ fn ver_kept_wear_is_that_of_the_whole_evaluation() {
     assert!(
         Gear::BOTH.iter().any(|&gear| greatest_difference(&stage[gear], &anew[gear]) > 1e-4 * greatest(&anew[gear]))
     );
+}
+
+/// Positions are prepared once for the cycles of one resolution and load after another, however deeply the flanks of the one before were worn; what they find is
+/// to the last bit what positions of their own find.
+#[test]
+fn ver_positions_are_prepared_once_for_many_cycles() {
+    let pair = pair(&fzg_c());
+    let law = gearwear_physics::wear::of(&WearSettings::archard(COEFFICIENT));
+    let wear = WearModel::cold(law.as_ref());
+    // A ramp on both flanks turns the normals, and opens the gaps beyond the first window.
+    let find = |cycle: &mut CondensedCycle<'_>, ramp_mm: f64| {
+        let lost_mm = cycle.nodes().map(|nodes| {
+            let last = nodes.len() as f64 - 1.0;
+            (0..nodes.len()).map(|node| ramp_mm * (node as f64 / last)).collect::<Vec<_>>()
+        });
+        let lost = lost_mm.as_ref().map(Vec::as_slice);
+        let mut depth_mm = lost_mm.clone();
+        cycle.evaluate(lost, &wear, &mut depth_mm, &|| false).expect("the cycle has an equilibrium");
+        cycle.linearise_anew(lost, &wear, &mut depth_mm, &|| false).expect("the cycle has an equilibrium");
+        depth_mm
+    };
+    let elements = WearingElements::new(condensed(&pair, 3.0));
+    let own = CondensedCycle::new(&elements.model, 40, line_load(&pair));
+    let positions = own.positions() as u64;
+    drop(own);
+    for ramp_mm in [0.0, 0.002, 0.3, 0.02, 0.0] {
+        let mut cycle = elements.cycle(40, line_load(&pair));
+        let first = find(&mut cycle, 0.0);
+        let then = find(&mut cycle, ramp_mm);
+        let mut own = CondensedCycle::new(&elements.model, 40, line_load(&pair));
+        assert_eq!([first, then], [find(&mut own, 0.0), find(&mut own, ramp_mm)], "{ramp_mm} mm");
+    }
+    assert_eq!(elements.prepared_positions(), positions);
+    for (asked, load) in [(40, 0.9 * line_load(&pair)), (30, 0.9 * line_load(&pair))] {
+        let before = elements.prepared_positions();
+        let cycle = elements.cycle(asked, load);
+        assert_eq!(elements.prepared_positions(), before + cycle.positions() as u64);
+    }
+    let before = elements.prepared_positions();
+    elements.drop_idle();
+    let cycle = elements.cycle(30, 0.9 * line_load(&pair));
+    assert_eq!(elements.prepared_positions(), before + cycle.positions() as u64);
 }
 
 fn greatest(row: &[f64]) -> f64 {

@@ -31,6 +31,7 @@ use super::guarded::guarded;
 use super::inputs::RunInputs;
 use super::kept_elements::KeptElements;
 use crate::contact::settings::SurfaceKind;
+use crate::mesh_cycle::condensed::WearingElements;
 use crate::mesh_cycle::pair_in_space::{PairInSpace, PairInSpaceError};
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::mesh_cycle::{CycleObservation, PositionObservation};
@@ -266,11 +267,11 @@ fn on_elements<'a>(
             condensed(scene, model.pair, model.greatest_load_n_per_mm(), &bodies, (&KeptElements::default(), observer))
         }
     };
-    let elements = elements.map_err(|error| error.to_string())?;
+    let elements = WearingElements::new(elements.map_err(|error| error.to_string())?);
     let phases = scene.operation.phases.iter();
-    let warm: Vec<Option<CondensedPair<'_>>> = phases
+    let warm: Vec<Option<WearingElements<'_>>> = phases
         .map(|phase| scene.material_in(phase))
-        .map(|own| (own != scene.material).then(|| of_material(&elements, scene, &own)))
+        .map(|own| (own != scene.material).then(|| WearingElements::new(of_material(&elements.model, scene, &own))))
         .collect();
     let contacts = warm.iter().map(|own| MeshContact::FiniteElements(own.as_ref().unwrap_or(&elements))).collect();
     let reference = simulate(model, outcome, contacts, positions, observer)?;

@@ -4,7 +4,7 @@
 //! length over which pressures are averaged), stays below
 //!
 //! ```text
-//! 0.3 · tolerance · max(1, greatest wear / 0.05 mm)
+//! 0.6 · tolerance · max(1, greatest wear / 0.05 mm)
 //! ```
 //!
 //! which leaves room for several steps whose errors add up where the wear is neutral (its mean over a contact); elsewhere later steps
@@ -26,7 +26,7 @@ use super::{
 };
 
 /// Part of the tolerance that any step may spend.
-const SHARE: f64 = 0.3;
+const SHARE: f64 = 0.6;
 /// Wear to which the tolerance itself holds, mm; beyond it grows in proportion: the default of 0.05 µm is a thousandth of it.
 pub const SHALLOW_MM: f64 = 0.05;
 /// Height of the probes of the spectral radius over the tolerance.

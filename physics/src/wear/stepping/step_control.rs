@@ -4,7 +4,7 @@
 //! tolerance, with the trend of the last two steps in mind (a predictive controller),
 //!
 //! ```text
-//! h ← h · 0.8 E^(−1/3) · (h/h₋₁) (E₋₁/E)^(1/3)            between 1/10 and 10 times as long
+//! h ← h · 0.9 E^(−1/3) · (h/h₋₁) (E₋₁/E)^(1/3)            between 1/10 and 10 times as long
 //! ```
 //!
 //! E being the estimated error over the tolerance; after a rejected step the trend counts for nothing. Where a rate jumps the error
@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 
 /// One over the order of the error of a step.
 const EXPONENT: f64 = 1.0 / 3.0;
-const SAFETY: f64 = 0.8;
+const SAFETY: f64 = 0.9;
 const LEAST_FACTOR: f64 = 0.1;
 const MOST_FACTOR: f64 = 10.0;
 /// Part of the tolerance as which smaller errors count.
