@@ -11,10 +11,12 @@
 
 mod observation;
 mod stretches;
+mod unworn_wear;
 mod wearing_elements;
 
 use rayon::prelude::*;
 
+pub use self::unworn_wear::unworn_wear_mm;
 pub use self::wearing_elements::WearingElements;
 
 use self::wearing_elements::IdlePositions;
@@ -110,12 +112,7 @@ impl<'a> CondensedCycle<'a> {
         prepared: Option<IdlePositions>,
     ) -> Self {
         let nodes = model.flank_nodes();
-        let radius_mm = PerGear::from_fn(|gear| {
-            let local = model.nominal_radius_mm(gear);
-            let mut radius_mm = vec![0.0; local.len()];
-            nodes[gear].place.iter().zip(local).for_each(|(&place, radius)| radius_mm[place] = radius);
-            radius_mm
-        });
+        let radius_mm = nominal_radii_mm(model, nodes.as_ref());
         let resolution = (positions, line_load_n_per_mm);
         let IdlePositions { groups, after_jumps, .. } =
             prepared.unwrap_or_else(|| IdlePositions::prepare(model, resolution, nodes.as_ref()));
@@ -299,6 +296,16 @@ impl CondensedCycle<'_> {
     }
 }
 
+/// Nominal radii of the nodes of both flanks, from root to tip.
+pub(crate) fn nominal_radii_mm(model: &CondensedPair<'_>, nodes: PerGear<&FlankNodes>) -> PerGear<Vec<f64>> {
+    PerGear::from_fn(|gear| {
+        let local = model.nominal_radius_mm(gear);
+        let mut radius_mm = vec![0.0; local.len()];
+        nodes[gear].place.iter().zip(local).for_each(|(&place, radius)| radius_mm[place] = radius);
+        radius_mm
+    })
+}
+
 /// Values at the nominal radii `radius_mm` of a flank from those at its nodes, whose nominal radii are `nodes_mm`: linear between the nodes, that of the
 /// last node beyond it, and 0 below the first, where the involute ends.
 pub(crate) fn at_radii(nodes_mm: &[f64], at_nodes: &[f64], radius_mm: impl Iterator<Item = f64>) -> Vec<f64> {
@@ -315,6 +322,12 @@ struct WearEvaluation<'a> {
 }
 
 impl CondensedGroup {
+    /// A group without positions.
+    fn new(nodes: PerGear<&FlankNodes>) -> Self {
+        let collected = Collected::new(nodes.map(FlankNodes::len));
+        Self { loaded_positions: Vec::new(), collected, rows: ContactRows::default(), kept_mm: PerGear::default() }
+    }
+
     fn evaluate(&mut self, step: &WearEvaluation<'_>) {
         self.collected.clear();
         self.evaluate_those(|_| true, CondensedPosition::solve, step);

@@ -14,7 +14,7 @@ use gearwear_bodies::gear_fem::position::WarmStart;
 use gearwear_bodies::gear_mesh::settings::{BodySettings, default_clamp};
 use gearwear_fem::elastic::Elastic;
 use gearwear_physics::contact::hertz;
-use gearwear_physics::mesh_cycle::condensed::{CondensedCycle, WearingElements};
+use gearwear_physics::mesh_cycle::condensed::{CondensedCycle, WearingElements, unworn_wear_mm};
 use gearwear_physics::mesh_cycle::{CycleObservation, MeshCycle, Work};
 use gearwear_physics::wear::{
     WearModel,
@@ -484,6 +484,13 @@ fn ver_positions_are_prepared_once_for_many_cycles() {
         assert_eq!([first, then], [find(&mut own, 0.0), find(&mut own, ramp_mm)], "{ramp_mm} mm");
     }
     assert_eq!(elements.prepared_positions(), positions);
+    // Nor do positions that are dropped one by one find anything else.
+    let mut own = CondensedCycle::new(&elements.model, 40, line_load(&pair));
+    let mut depth_mm = own.nodes().map(|nodes| vec![0.0; nodes.len()]);
+    let unworn = depth_mm.clone();
+    own.evaluate(unworn.as_ref().map(Vec::as_slice), &wear, &mut depth_mm, &|| false)
+        .expect("the cycle has an equilibrium");
+    assert_eq!(unworn_wear_mm(&elements.model, 40, line_load(&pair), &wear, &|| false), Ok(depth_mm));
     for (asked, load) in [(40, 0.9 * line_load(&pair)), (30, 0.9 * line_load(&pair))] {
         let before = elements.prepared_positions();
         let cycle = elements.cycle(asked, load);

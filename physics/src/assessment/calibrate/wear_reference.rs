@@ -2,8 +2,7 @@
 
 use super::CalibrateError;
 use crate::calibration::wear_reference::{FLANK_POINTS, LOADS, POSITIONS, ReferenceDepth, WearReference};
-use crate::mesh_cycle::MeshCycle;
-use crate::mesh_cycle::condensed::CondensedCycle;
+use crate::mesh_cycle::condensed::{at_radii, nominal_radii_mm, unworn_wear_mm};
 use crate::mesh_cycle::load_sharing::EquilibriumError;
 use crate::wear::{self, WearModel, settings::WearSettings};
 use gearwear_bodies::gear::{
@@ -30,20 +29,19 @@ fn reference(
     let pair = condensed.pair;
     // Wear per coefficient is the wear by a coefficient of 1.
     let law = wear::of(&WearSettings::archard(1.0));
-    let mut cycle = CondensedCycle::new(condensed, POSITIONS, line_load_n_per_mm);
-    let mut depth = cycle.nodes().map(|nodes| vec![0.0; nodes.len()]);
-    let unworn = depth.clone();
-    let zeros = unworn.as_ref().map(Vec::as_slice);
-    match cycle.evaluate(zeros, &WearModel::cold(law.as_ref()), &mut depth, stopped) {
-        Ok(_) => {}
+    let wear = WearModel::cold(law.as_ref());
+    let depth = match unworn_wear_mm(condensed, POSITIONS, line_load_n_per_mm, &wear, stopped) {
+        Ok(depth) => depth,
         Err(EquilibriumError::Interrupted) => return Err(CalibrateError::Interrupted),
         Err(source) => return Err(CalibrateError::Cycle { line_load_n_per_mm, source }),
-    }
+    };
+    let nodes = condensed.flank_nodes();
+    let node_radius_mm = nominal_radii_mm(condensed, nodes.as_ref());
     let flanks = PerGear::from_fn(|gear: Gear| {
         let grid = FlankGrid::new(pair, gear, FLANK_POINTS, PointSpacing::Even);
         let radius_mm: Vec<f64> =
             grid.coordinate_mm.iter().map(|&rho| pair.teeth[gear].involute.radius_mm(rho)).collect();
-        let depth_per_coefficient_n_per_mm = cycle.at_radii(gear, &depth[gear], radius_mm.iter().copied());
+        let depth_per_coefficient_n_per_mm = at_radii(&node_radius_mm[gear], &depth[gear], radius_mm.iter().copied());
         ReferenceDepth { radius_mm, depth_per_coefficient_n_per_mm }
     });
     Ok(WearReference { line_load_n_per_mm, flanks })

@@ -9,8 +9,7 @@ use std::sync::{Mutex, PoisonError};
 use rayon::prelude::*;
 
 use super::stretches::BasePitch;
-use super::{CondensedCycle, CondensedGroup, CondensedPosition, ContactRows};
-use crate::mesh_cycle::collected::Collected;
+use super::{CondensedCycle, CondensedGroup, CondensedPosition};
 use crate::mesh_cycle::{GROUPS, MeshCycle};
 use gearwear_bodies::gear::PerGear;
 use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
@@ -40,14 +39,11 @@ impl IdlePositions {
         let stretches = base_pitch.stretches_mm();
         let groups = stretches
             .par_chunks(stretches.len().div_ceil(GROUPS))
-            .map(|stretches| CondensedGroup {
-                loaded_positions: stretches
-                    .iter()
-                    .map(|&stretch| CondensedPosition::new(model, stretch, line_load_n_per_mm, nodes))
-                    .collect(),
-                collected: Collected::new(nodes.map(FlankNodes::len)),
-                rows: ContactRows::default(),
-                kept_mm: PerGear::default(),
+            .map(|stretches| {
+                let positions = stretches.iter();
+                let positions =
+                    positions.map(|&stretch| CondensedPosition::new(model, stretch, line_load_n_per_mm, nodes));
+                CondensedGroup { loaded_positions: positions.collect(), ..CondensedGroup::new(nodes) }
             })
             .collect();
         Self { resolution, groups, after_jumps: base_pitch.after_jumps(&stretches) }
