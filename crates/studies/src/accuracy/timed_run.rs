@@ -18,7 +18,7 @@ use gearwear_physics::plan::StageKind;
 use gearwear_physics::results::run::{PathPoints, RunRecord, StopReason, Summary};
 
 /// Total time of the repeats of a run, preparation included; the least time counts.
-const LONG_ENOUGH_S: f64 = 0.2;
+const LONG_ENOUGH_S: f64 = 0.1;
 /// Greatest number of repeats.
 const MOST_REPEATS: u32 = 20;
 

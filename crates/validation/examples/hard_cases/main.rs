@@ -51,15 +51,48 @@ const CASES: &[Case] = &[
         threads: 1,
         carry_out: || run(&severe("half-space", 405.0, "factor = 60.0\nband_MPa = 0.0")?),
     },
+    Case { name: "worn in relief, fem with check", threads: 1, carry_out: || run(&LoadedScene::from_toml(IN_RELIEF)?) },
     Case { name: "helical", threads: 2, carry_out: || run(&LoadedScene::preset("helical")?) },
     Case { name: "h501", threads: 2, carry_out: || run(&LoadedScene::preset("h501")?) },
     Case { name: "h701", threads: 2, carry_out: || run(&LoadedScene::preset("h701")?) },
     Case { name: "h951", threads: 2, carry_out: || run(&LoadedScene::preset("h951")?) },
+    Case { name: "new pair, h501 on 60 positions", threads: 2, carry_out: || run(&new_pair("h501", 60)?) },
     Case { name: "calibrate", threads: 2, carry_out: calibrate },
     Case { name: "accuracy", threads: 2, carry_out: accuracy },
     Case { name: "uncertainty", threads: 2, carry_out: uncertainty },
     Case { name: "sweep", threads: 2, carry_out: sweep },
 ];
+
+/// A pair of module 5 under 1310 MPa, worn by 15 µm with linear relief on both gears.
+const IN_RELIEF: &str = r#"
+[pair]
+normal_module_mm = 5.0
+pressure_angle_deg = 20.0
+centre_distance_mm = 190.0
+face_width_mm = 25.0
+pinion = { teeth = 19, profile_shift = 0.2, tip_rounding_mm = 0.1, tip_relief = { amount_um = 25.0, length_mm = 2.5 } }
+wheel = { teeth = 57, profile_shift = -0.2, tip_rounding_mm = 0.1, tip_relief = { amount_um = 25.0, length_mm = 2.5 } }
+[material]
+young_modulus_GPa = 206.0
+poisson_ratio = 0.3
+[operation]
+pinion_torque_Nm = 650.0
+pinion_speed_rpm = 500.0
+hours = 200.0
+[wear]
+law = "archard"
+coefficient_m2_per_N = 0.9e-17
+"#;
+
+/// The new pair of a preset: one revolution, without check.
+fn new_pair(preset: &str, positions: i64) -> Found<LoadedScene> {
+    let scene = LoadedScene::preset(preset)?.with("numerics.positions", positions)?;
+    let scene = scene.with("numerics.error_estimate", false)?.with("numerics.verify", false)?;
+    let operation: toml::Table =
+        "pinion_torque_Nm = 302.0\npinion_speed_rpm = 150.0\npinion_revolutions = 1.0\nsnapshots_revolutions = [1.0]"
+            .parse()?;
+    Ok(scene.with("operation", operation)?)
+}
 
 fn run(scene: &LoadedScene) -> Found<()> {
     gearwear::run(scene, &Unwatched)?.complete()?;
