@@ -246,6 +246,7 @@ impl PreparedRun<'_, '_> {
         let ended = EndedRun { provenance, plan, model: model.ending_with(&outcome), outcome: &outcome, warnings };
         let errors = |model: &RunModel<'_>, stages: &mut StageClock<'_>| {
             let error = estimates(plan, model, &outcome, step_over_safe, stages);
+            model.drop_idle_positions();
             (error, verify(plan, model, &outcome, verification, stages))
         };
         let record = ended.sum_up(judged, &mut stages, errors, keep)?;
@@ -258,6 +259,7 @@ impl PreparedRun<'_, '_> {
         let Self { provenance, plan, mut model, warnings, .. } = self;
         let step_over_safe = judged.step_over_safe;
         model = model.ending_with(&outcome);
+        model.drop_idle_positions();
         let at = revolutions.iter().map_while(|&revolutions| outcome.ended_at(revolutions));
         let mut pairs = Vec::new();
         for outcome in at {
@@ -360,8 +362,6 @@ fn verify<'a>(
         Some(reason) => Verified::none(reason),
         None => {
             let observer = stages.observer;
-            // The finite elements of the verification take their place.
-            model.phases.iter().for_each(|phase| phase.contact.drop_idle_positions());
             stages.run(StageKind::Verification.name(), || verification::verify(model, outcome, models, observer))
         }
     }

@@ -44,6 +44,12 @@ impl RunModel<'_> {
         }
     }
 
+    /// Drops the positions that the simulations of the run prepared on its finite elements.
+    pub(super) fn drop_idle_positions(&self) {
+        let under_torques = self.torque_curve.iter().map(|(_, phase)| phase);
+        self.phases.iter().chain(under_torques).for_each(|phase| phase.contact.drop_idle_positions());
+    }
+
     /// Zones of both flanks, for the half-width of contact under the greatest load of any phase.
     pub(super) fn zones(&self) -> PerGear<FlankZones> {
         FlankZones::of_pair(self.pair, self.at_pitch.contact.loaded(self.greatest_load_n_per_mm()).half_width_mm)

@@ -154,9 +154,8 @@ impl<'a> ContactCases<'a> {
             let mut case = contact_case(inputs, pair, material, load, stages)?;
             if material != scene.material {
                 let worn = elasticity.worn.as_ref();
-                let softer =
-                    |elements: &WearingElements<'a>| verification::of_material(&elements.model, scene, &material);
-                case.elements = worn.map(softer).map(WearingElements::new);
+                let of_material = |own: &WearingElements<'a>| verification::of_material(&own.model, scene, &material);
+                case.elements = worn.map(of_material).map(WearingElements::new);
                 if let (Some(Ok(elements)), Some(_)) = (elements, &elasticity.computed) {
                     let line_load_n_per_mm = load.max(elements.line_load_n_per_mm);
                     let curve = stages.run(StageKind::FiniteElementCalibration.name(), || {

@@ -113,9 +113,9 @@ impl<'a> CondensedCycle<'a> {
     ) -> Self {
         let nodes = model.flank_nodes();
         let radius_mm = nominal_radii_mm(model, nodes.as_ref());
-        let resolution = (positions, line_load_n_per_mm);
+        let asked = (positions, line_load_n_per_mm);
         let IdlePositions { groups, after_jumps, .. } =
-            prepared.unwrap_or_else(|| IdlePositions::prepare(model, resolution, nodes.as_ref()));
+            prepared.unwrap_or_else(|| IdlePositions::prepare(model, asked, nodes.as_ref()));
         Self {
             model,
             elements: None,
@@ -163,10 +163,11 @@ impl<'a> CondensedCycle<'a> {
 
 impl Drop for CondensedCycle<'_> {
     fn drop(&mut self) {
-        if let Some(elements) = self.elements {
+        // What a panic has left half done is not kept.
+        if let Some(elements) = self.elements.filter(|_| !std::thread::panicking()) {
             let (groups, after_jumps) = (std::mem::take(&mut self.groups), std::mem::take(&mut self.after_jumps));
             elements.keep(IdlePositions {
-                resolution: (self.observation_mm.len(), self.line_load_n_per_mm),
+                asked: (self.observation_mm.len(), self.line_load_n_per_mm),
                 groups,
                 after_jumps,
             });
@@ -247,6 +248,7 @@ impl MeshCycle for CondensedCycle<'_> {
 
     fn reset(&mut self) {
         let (model, nodes) = (self.model, self.nodes.as_ref());
+        self.groups.iter_mut().for_each(|group| group.collected.clear());
         self.groups.par_iter_mut().flat_map(|group| &mut group.loaded_positions).for_each(|loaded| {
             model.reset(&mut loaded.prepared);
             loaded.found = None;
@@ -368,20 +370,21 @@ impl CondensedGroup {
         self.evaluate_those(|_| true, solve_kept, step);
     }
 
-    /// Collects the wear of some of the positions.
+    /// Collects the wear of some of the positions, up to the first failure. Returns whether there was none.
     fn evaluate_those(
         &mut self,
         are_asked: impl Fn(&CondensedPosition) -> bool,
         solve: impl Fn(&mut CondensedPosition, &WearEvaluation<'_>) -> Result<Work, EquilibriumError>,
         step: &WearEvaluation<'_>,
-    ) {
+    ) -> bool {
         for loaded in self.loaded_positions.iter_mut().filter(|loaded| are_asked(loaded)) {
             let solved = if (step.stopped)() { Err(EquilibriumError::Interrupted) } else { solve(loaded, step) };
             if !self.collected.take(solved) {
-                return;
+                return false;
             }
             loaded.wear(step, &mut self.rows, &mut self.collected.depth_mm);
         }
+        true
     }
 
     /// Lets the positions follow the tilt of the worn flanks.

@@ -331,7 +331,7 @@ impl WearRun<'_> {
         phase: &RunPhase<'b>,
         flanks: &'b UnwornFlanks,
     ) -> Result<Box<dyn WearingPair + 'b>, SimulationError> {
-        // Positions on other finite elements make room.
+        // Positions on the finite elements of other phases make room.
         let others = self.phases.iter().map(|phase| phase.contact);
         others.filter(|other| !other.is_on_elements_of(&phase.contact)).for_each(|other| other.drop_idle_positions());
         let mesh = LoadedMesh {

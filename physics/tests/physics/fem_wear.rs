@@ -458,30 +458,43 @@ fn ver_kept_wear_is_that_of_the_whole_evaluation() {
 #[test]
 fn ver_positions_are_prepared_once_for_many_cycles() {
     let pair = pair(&fzg_c());
-    let law = gearwear_physics::wear::of(&WearSettings::archard(COEFFICIENT));
+    let severe = Some(SevereTransition { above_mpa: 1200.0, factor: 10.0, band_mpa: 100.0 });
+    let law = gearwear_physics::wear::of(&WearSettings { severe, ..WearSettings::archard(COEFFICIENT) });
     let wear = WearModel::cold(law.as_ref());
     // A ramp on both flanks turns the normals, and opens the gaps beyond the first window.
-    let find = |cycle: &mut CondensedCycle<'_>, ramp_mm: f64| {
-        let lost_mm = cycle.nodes().map(|nodes| {
+    let ramp = |cycle: &CondensedCycle<'_>, ramp_mm: f64| {
+        cycle.nodes().map(|nodes| {
             let last = nodes.len() as f64 - 1.0;
             (0..nodes.len()).map(|node| ramp_mm * (node as f64 / last)).collect::<Vec<_>>()
-        });
+        })
+    };
+    let find = |cycle: &mut CondensedCycle<'_>, ramp_mm: f64| {
+        let lost_mm = ramp(cycle, ramp_mm);
         let lost = lost_mm.as_ref().map(Vec::as_slice);
         let mut depth_mm = lost_mm.clone();
         cycle.evaluate(lost, &wear, &mut depth_mm, &|| false).expect("the cycle has an equilibrium");
         cycle.linearise_anew(lost, &wear, &mut depth_mm, &|| false).expect("the cycle has an equilibrium");
-        depth_mm
+        (depth_mm, cycle.peak_to_peak_mm())
+    };
+    // A stage in which positions keep their wear, and an interruption.
+    let leave_half_done = |cycle: &mut CondensedCycle<'_>| {
+        let lost_mm = ramp(cycle, 0.01);
+        let lost = lost_mm.as_ref().map(Vec::as_slice);
+        let mut depth_mm = lost_mm.clone();
+        cycle.begin_stages(lost, &wear);
+        cycle.evaluate_stage(lost, &wear, &mut depth_mm, &|| false).expect("the cycle has an equilibrium");
+        cycle.evaluate(lost, &wear, &mut depth_mm, &|| true).expect_err("the cycle was interrupted");
     };
     let elements = WearingElements::new(condensed(&pair, 3.0));
     let own = CondensedCycle::new(&elements.model, 40, line_load(&pair));
     let positions = own.positions() as u64;
     drop(own);
-    for ramp_mm in [0.0, 0.002, 0.3, 0.02, 0.0] {
+    for ramps_mm in [[0.0, 0.0], [0.0, 0.002], [0.3, 0.0], [0.01, 0.02], [0.0, 0.3], [0.02, 0.01]] {
         let mut cycle = elements.cycle(40, line_load(&pair));
-        let first = find(&mut cycle, 0.0);
-        let then = find(&mut cycle, ramp_mm);
+        let found = ramps_mm.map(|ramp_mm| find(&mut cycle, ramp_mm));
+        leave_half_done(&mut cycle);
         let mut own = CondensedCycle::new(&elements.model, 40, line_load(&pair));
-        assert_eq!([first, then], [find(&mut own, 0.0), find(&mut own, ramp_mm)], "{ramp_mm} mm");
+        assert_eq!(found, ramps_mm.map(|ramp_mm| find(&mut own, ramp_mm)), "{ramps_mm:?} mm");
     }
     assert_eq!(elements.prepared_positions(), positions);
     // Nor do positions that are dropped one by one find anything else.

@@ -308,6 +308,11 @@ impl BesideWindow {
         depth_mm(self.slave, node.node as usize) + node.at_foot(|node| depth_mm(self.slave.mate(), node)) / node.cosine
     }
 
+    /// Forgets the compliances that were found: found again, probe by probe or many at once, they may differ in their last bits.
+    pub(super) fn forget(&mut self) {
+        self.probes.iter_mut().for_each(|probe| probe.compliance = None);
+    }
+
     /// Probes whose compliance is not known yet, around nodes that would overlap if the teeth were rigid and unworn.
     fn probes_without_compliance(&self, turned_mm: f64) -> Vec<usize> {
         let overlapping = self.spans.iter().enumerate().filter(|(_, span)| span.least_mm(turned_mm) < 0.0);

@@ -248,8 +248,9 @@ impl SearchWindow {
 }
 
 impl PreparedPosition {
-    /// Resets tilt and active set.
+    /// Resets tilt, active set and what was found beside the window.
     fn level(&mut self) {
+        self.beside.iter_mut().for_each(BesideWindow::forget);
         self.active = self.unworn.as_ref().map(|unworn| unworn.active.clone());
         self.kept = None;
         if let Some(sideways) = &self.sideways {

@@ -35,9 +35,14 @@ pub fn unworn_wear_mm(
         .map(|stretches| {
             let mut group = CondensedGroup::new(nodes);
             for &stretch in stretches {
-                group.loaded_positions.clear();
-                group.loaded_positions.push(CondensedPosition::new(model, stretch, line_load_n_per_mm, nodes));
-                group.evaluate_those(|_| true, CondensedPosition::solve, &step);
+                if stopped() {
+                    group.collected.take(Err(EquilibriumError::Interrupted));
+                    break;
+                }
+                group.loaded_positions = vec![CondensedPosition::new(model, stretch, line_load_n_per_mm, nodes)];
+                if !group.evaluate_those(|_| true, CondensedPosition::solve, &step) {
+                    break;
+                }
             }
             group.collected
         })

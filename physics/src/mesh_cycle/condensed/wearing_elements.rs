@@ -1,7 +1,7 @@
 //! Finite elements with the positions that were prepared on them.
 //!
-//! Cycles of as many positions under the same load differ in nothing but what has been lost since. A run, the phases of other speeds, and the
-//! lives with other limits of severe wear so take over the positions of the cycle before.
+//! Cycles of as many positions under the same load differ in nothing but what has been lost since. So a run, its phases of other speeds and its
+//! lives with other limits of severe wear take over the positions of the cycle before.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -26,15 +26,15 @@ pub struct WearingElements<'a> {
 /// Positions that no cycle uses.
 pub(super) struct IdlePositions {
     /// Number of positions asked for, and load in N/mm.
-    pub resolution: (usize, f64),
+    pub asked: (usize, f64),
     pub groups: Vec<CondensedGroup>,
     pub after_jumps: Vec<usize>,
 }
 
 impl IdlePositions {
     /// Positions on unworn flanks.
-    pub(super) fn prepare(model: &CondensedPair<'_>, resolution: (usize, f64), nodes: PerGear<&FlankNodes>) -> Self {
-        let (positions, line_load_n_per_mm) = resolution;
+    pub(super) fn prepare(model: &CondensedPair<'_>, asked: (usize, f64), nodes: PerGear<&FlankNodes>) -> Self {
+        let (positions, line_load_n_per_mm) = asked;
         let base_pitch = BasePitch::of(model, positions, line_load_n_per_mm);
         let stretches = base_pitch.stretches_mm();
         let groups = stretches
@@ -46,7 +46,7 @@ impl IdlePositions {
                 CondensedGroup { loaded_positions: positions.collect(), ..CondensedGroup::new(nodes) }
             })
             .collect();
-        Self { resolution, groups, after_jumps: base_pitch.after_jumps(&stretches) }
+        Self { asked, groups, after_jumps: base_pitch.after_jumps(&stretches) }
     }
 }
 
@@ -59,12 +59,13 @@ impl<'a> WearingElements<'a> {
     /// A cycle on unworn flanks, of positions about as close as `positions` from A to E. To the last bit it is that of [`CondensedCycle::new`].
     pub fn cycle(&'a self, positions: usize, line_load_n_per_mm: f64) -> CondensedCycle<'a> {
         // Others are dropped before new ones are prepared.
-        let idle = self.take().filter(|idle| idle.resolution == (positions, line_load_n_per_mm));
+        let idle = self.take().filter(|idle| idle.asked == (positions, line_load_n_per_mm));
         let is_new = idle.is_none();
         let mut cycle = CondensedCycle::with(&self.model, positions, line_load_n_per_mm, idle);
-        match is_new {
-            true => drop(self.prepared.fetch_add(cycle.positions() as u64, Ordering::Relaxed)),
-            false => cycle.reset(),
+        if is_new {
+            self.prepared.fetch_add(cycle.positions() as u64, Ordering::Relaxed);
+        } else {
+            cycle.reset();
         }
         cycle.elements = Some(self);
         cycle
@@ -75,7 +76,7 @@ impl<'a> WearingElements<'a> {
         drop(self.take());
     }
 
-    /// How many positions were prepared for all cycles so far.
+    /// How many positions were prepared for all cycles so far, those that widened their window and are prepared anew for the next cycle counted once.
     pub fn prepared_positions(&self) -> u64 {
         self.prepared.load(Ordering::Relaxed)
     }
