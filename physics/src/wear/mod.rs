@@ -171,7 +171,7 @@ impl<L: WearLaw> FlankWear for WithFactors<L> {
     }
 
     fn severe_from_mpa(&self) -> Option<f64> {
-        self.severe.map(SevereTransition::begins_mpa)
+        self.severe.filter(|severe| severe.factor > 1.0).map(SevereTransition::begins_mpa)
     }
 }
 
@@ -315,6 +315,15 @@ mod tests {
 
         fn coefficient_mm2_per_n(&self, at: &LocalContact) -> f64 {
             1e-12 * at.pressure_mpa.sqrt() * (1.0 + at.lambda.unwrap_or_default())
+        }
+    }
+
+    /// Wear that slows down above a limit, or goes on as it was, is not severe: steps of the same wear written otherwise are the same.
+    #[test]
+    fn only_faster_wear_is_severe() {
+        for (factor, from_mpa) in [(0.5, None), (1.0, None), (2.0, Some(1950.0))] {
+            let severe = Some(SevereTransition { above_mpa: 2000.0, factor, band_mpa: 100.0 });
+            assert_eq!(WithFactors { law: Power, severe, film: None }.severe_from_mpa(), from_mpa, "{factor}");
         }
     }
 
