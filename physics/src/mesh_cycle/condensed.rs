@@ -151,11 +151,6 @@ impl<'a> CondensedCycle<'a> {
         self.loaded_positions().count()
     }
 
-    /// Values at the nominal radii `radius_mm` from those at the nodes of `gear`'s flank, as by [`at_radii`].
-    pub fn at_radii(&self, gear: Gear, at_nodes: &[f64], radius_mm: impl Iterator<Item = f64>) -> Vec<f64> {
-        at_radii(&self.radius_mm[gear], at_nodes, radius_mm)
-    }
-
     fn loaded_positions(&self) -> impl Iterator<Item = &CondensedPosition> {
         self.groups.iter().flat_map(|group| &group.loaded_positions)
     }
@@ -310,7 +305,7 @@ pub(crate) fn nominal_radii_mm(model: &CondensedPair<'_>, nodes: PerGear<&FlankN
 
 /// Values at the nominal radii `radius_mm` of a flank from those at its nodes, whose nominal radii are `nodes_mm`: linear between the nodes, that of the
 /// last node beyond it, and 0 below the first, where the involute ends.
-pub(crate) fn at_radii(nodes_mm: &[f64], at_nodes: &[f64], radius_mm: impl Iterator<Item = f64>) -> Vec<f64> {
+pub fn at_radii(nodes_mm: &[f64], at_nodes: &[f64], radius_mm: impl Iterator<Item = f64>) -> Vec<f64> {
     radius_mm.map(|radius| if radius < nodes_mm[0] { 0.0 } else { value_at(nodes_mm, at_nodes, radius) }).collect()
 }
 

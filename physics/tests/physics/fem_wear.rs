@@ -14,7 +14,7 @@ use gearwear_bodies::gear_fem::position::WarmStart;
 use gearwear_bodies::gear_mesh::settings::{BodySettings, default_clamp};
 use gearwear_fem::elastic::Elastic;
 use gearwear_physics::contact::hertz;
-use gearwear_physics::mesh_cycle::condensed::{CondensedCycle, WearingElements, unworn_wear_mm};
+use gearwear_physics::mesh_cycle::condensed::{CondensedCycle, WearingElements, at_radii, unworn_wear_mm};
 use gearwear_physics::mesh_cycle::{CycleObservation, MeshCycle, Work};
 use gearwear_physics::wear::{
     WearModel,
@@ -172,7 +172,7 @@ fn val_away_from_a_to_e_each_point_wears_like_a_disc() {
     let depth = PerGear::from_fn(|gear| {
         let involute = pair.path.involute[gear];
         let radii = grid[gear].coordinate_mm.iter().map(|&rho| involute.radius_mm(rho));
-        cycle.at_radii(gear, &at_nodes[gear], radii)
+        at_radii(cycle.radius_mm()[gear], &at_nodes[gear], radii)
     });
     let at_pitch = hertz::flattening(&pair, &steel(), pair.path.pitch_point_mm);
     let half_width = at_pitch.contact.loaded(line_load(&pair)).half_width_mm;
@@ -321,7 +321,10 @@ fn ver_nothing_wears_below_the_first_node() {
         let first = nodes.iter().copied().fold(f64::INFINITY, f64::min);
         let last = nodes.iter().copied().fold(0.0, f64::max);
         let places = [first - 0.01, first, 0.5 * (first + last), last, last + 0.01];
-        assert_eq!(cycle.at_radii(gear, &vec![1.0; nodes.len()], places.into_iter()), [0.0, 1.0, 1.0, 1.0, 1.0]);
+        assert_eq!(
+            at_radii(cycle.radius_mm()[gear], &vec![1.0; nodes.len()], places.into_iter()),
+            [0.0, 1.0, 1.0, 1.0, 1.0]
+        );
     }
 }
 

@@ -88,10 +88,8 @@ coefficient_m2_per_N = 0.9e-17
 fn new_pair(preset: &str, positions: i64) -> Found<LoadedScene> {
     let scene = LoadedScene::preset(preset)?.with("numerics.positions", positions)?;
     let scene = scene.with("numerics.error_estimate", false)?.with("numerics.verify", false)?;
-    let operation: toml::Table =
-        "pinion_torque_Nm = 302.0\npinion_speed_rpm = 150.0\npinion_revolutions = 1.0\nsnapshots_revolutions = [1.0]"
-            .parse()?;
-    Ok(scene.with("operation", operation)?)
+    let scene = scene.with("operation.snapshots_revolutions", vec![1.0])?;
+    Ok(scene.with("operation.pinion_revolutions", 1.0)?)
 }
 
 fn run(scene: &LoadedScene) -> Found<()> {

@@ -433,6 +433,50 @@ mod tests {
         assert!(off > 0.0 && (off - estimated / ERROR_FACTOR).abs() < 0.01 * off, "{off:e}, estimated {estimated:e}");
     }
 
+    /// y₀' = 0.05 e^(−300 y₁), y₁' = 0.01: smooth, whatever it says of itself.
+    struct Smooth {
+        is_steep: bool,
+    }
+
+    impl Rate for Smooth {
+        type Error = Infallible;
+
+        fn evaluate(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), Infallible> {
+            rate.copy_from_slice(&[0.05 * (-300.0 * state[1]).exp(), 0.01]);
+            Ok(())
+        }
+
+        fn is_steep(&self) -> bool {
+            self.is_steep
+        }
+
+        fn may_succeed_nearer(&self, _: &Infallible) -> bool {
+            false
+        }
+    }
+
+    /// Steps spend the part of the tolerance that docs/theory.md names, 0.3, or 0.6 of rates that may be steep, in one step with another more than a third of
+    /// it; and what they say they spent is no less than the error at the end.
+    #[test]
+    fn ver_steps_spend_their_part_of_the_tolerance() {
+        let tolerance = 1e-5;
+        for (is_steep, part) in [(false, 0.3), (true, 0.6)] {
+            let mut integrator = Adaptive::new(tolerance, 1.0, 2);
+            let (mut rate, mut state, mut slope) = (Smooth { is_steep }, vec![0.0; 2], vec![0.05, 0.01]);
+            let mut reached = 0.0;
+            while reached < 1.0 - 1e-12 {
+                let Ok(length) = integrator.step(&mut rate, &mut state, &mut slope, 1.0 - reached);
+                reached += length;
+            }
+            let exact = 0.05 / 3.0 * (1.0 - (-3.0_f64).exp());
+            let (off, spent) = ((state[0] - exact).abs(), integrator.accumulated_error()[0].abs());
+            let of_each = spent / tolerance / integrator.counts().accepted as f64;
+            println!("{is_steep}: {of_each} of the tolerance a step, {off:e} of {spent:e}");
+            assert!(part / 3.0 < of_each && of_each <= part, "{is_steep}: {of_each}");
+            assert!(0.3 * spent < off && off <= spent, "{is_steep}: {off:e} of {spent:e}");
+        }
+    }
+
     /// A rise that was not there before counts as what it is, however steps are cut.
     #[test]
     fn ver_a_rate_that_rises_once_is_not_missed() {

@@ -105,5 +105,8 @@ mod tests {
         assert!((control.next().unwrap() - 0.04).abs() < 1e-12);
         assert_eq!(control.judge(1e-9, 1e-9, true, 0.8), StepVerdict::Accepted);
         assert!((control.next().unwrap() - 0.04).abs() < 1e-12);
+        // However near the step was to the tolerance, and the next ones aim.
+        assert_eq!(control.judge(0.04, 1.001, false, 0.95), StepVerdict::Rejected);
+        assert!((control.next().unwrap() - 0.8 * 0.04).abs() < 1e-12);
     }
 }
