@@ -21,6 +21,18 @@ use gearwear_physics::contact::settings::SurfaceKind;
 use gearwear_physics::mesh_cycle::pair_in_space::KeptInSpace;
 use gearwear_physics::operation::Scene;
 use gearwear_physics::results::run::InputFile;
+use gearwear_physics::simulation::settings::Stepping;
+
+/// Finest resolution of a fast model.
+#[derive(Debug, Clone, Copy)]
+pub struct FinestNumerics {
+    /// Positions from A to E.
+    pub positions: usize,
+    /// Points of a flank.
+    pub flank_points: usize,
+    /// Tolerance of adaptive steps, µm.
+    pub tolerance_um: f64,
+}
 
 /// The folder of a run's input files within its own.
 const INPUTS: &str = "inputs";
@@ -231,21 +243,19 @@ impl LoadedScene {
         self.calibrated_with(calibration, |_, _| {})
     }
 
-    /// Scene on a Winkler foundation with this calibration, as if the file named both, at the resolution of this one but with `most_positions` from A to E
-    /// and `most_points` on a flank at most.
+    /// Scene on a Winkler foundation with this calibration, as if the file named both, at the resolution of this one but no finer than `finest`.
     ///
     /// # Errors
     /// A calibration of another pair.
     pub fn on_calibrated_foundation(
         &self,
         calibration: Calibration,
-        most_positions: usize,
-        most_points: usize,
+        finest: FinestNumerics,
     ) -> Result<Self, LoadError> {
         let resolved: toml::Table = self.to_toml().parse().unwrap_or_default();
         let numerics = &self.scene().numerics;
-        let positions = numerics.positions.min(most_positions) as i64;
-        let points = numerics.flank_points.min(most_points) as i64;
+        let positions = numerics.positions.min(finest.positions) as i64;
+        let points = numerics.flank_points.min(finest.flank_points) as i64;
         self.calibrated_with(calibration, |draft, of_mesh| {
             for foundation in ["contact.foundation_MPa_per_mm".to_owned(), of_mesh("contact.foundation_MPa_per_mm")] {
                 draft.remove(&foundation);
@@ -257,6 +267,11 @@ impl LoadedScene {
             }
             draft.set(&of_mesh("numerics.positions"), positions);
             draft.set(&of_mesh("numerics.flank_points"), points);
+            if let Stepping::Adaptive { tolerance_mm } = numerics.stepping
+                && 1e3 * tolerance_mm < finest.tolerance_um
+            {
+                draft.set(&of_mesh("numerics.tolerance_um"), finest.tolerance_um);
+            }
         })
     }
 

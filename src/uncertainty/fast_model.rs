@@ -2,8 +2,8 @@
 //!
 //! Finite elements of the scene as given calibrate K/H and the stiffness of the teeth once. The foundation takes [`POSITIONS`] positions and
 //! [`FLANK_POINTS`] points at most: on 400 positions the wear of FZG type C is 0.2 % greater, that of its tip edges 0.5 % less, and 750 points change
-//! neither by more than 0.4 %. On 100 positions tip edges of deeply worn pairs differ by more than is taken. The scene is then run on both surfaces, as
-//! given, with all uncertain keys low, with all high, and with some low and others high such that every two keys are once apart: the profile slopes of both
+//! neither by more than 0.4 %. On 100 positions tip edges of deeply worn pairs differ by more than is taken. Adaptive steps may err by [`TOLERANCE`] of the
+//! greatest wear as given, which saves a third of the mesh cycles of deep wear and moves it by some 1e-4. The scene is then run on both surfaces, as given, with all uncertain keys low, with all high, and with some low and others high such that every two keys are once apart: the profile slopes of both
 //! gears do nothing while they are alike. With y the figure on the scene's own surface and y' that on the foundation, as given (0) or with the keys so (±),
 //!
 //! ```text
@@ -17,13 +17,14 @@ use serde::Serialize;
 
 use super::sampled_run::{SampledQuestion, UncertaintyStudyError, outputs_of, run_of};
 use crate::runs;
-use crate::scene::loaded::LoadedScene;
+use crate::scene::loaded::{FinestNumerics, LoadedScene};
 use crate::scene::opened::OpenedScene;
 use crate::varied_scene::{StudiedRun, VariedScene, in_words, one_line};
 use gearwear_physics::assessment::calibrate::{CalibrateError, CalibrationExtent};
 use gearwear_physics::assessment::guarded::guarded;
 use gearwear_physics::contact::settings::SurfaceKind;
 use gearwear_physics::observer::Observer;
+use gearwear_physics::results::worn_pair::WornPair;
 use gearwear_physics::stiffness::settings::StiffnessSettings;
 use gearwear_physics::wear::settings::WearOfPair;
 
@@ -35,6 +36,8 @@ pub const GREATEST_CORRECTION: f64 = 0.1;
 pub const POSITIONS: usize = 150;
 /// Most points of a flank on the foundation.
 pub const FLANK_POINTS: usize = 375;
+/// Least tolerance of adaptive steps on the foundation over the greatest wear as given.
+pub const TOLERANCE: f64 = 0.01;
 /// Shares of the distributions where both surfaces are compared too.
 const LOW_AND_HIGH: [f64; 2] = [0.05, 0.95];
 /// Number of runs from which a fast model pays.
@@ -115,8 +118,8 @@ impl SampledScene {
             ));
         }
         let mut foundations = Vec::new();
-        for pair in scene.each().all() {
-            match on_calibrated_foundation(pair, observer)? {
+        for (pair, nominal) in scene.each().all().into_iter().zip(nominal_run.pairs().all()) {
+            match on_calibrated_foundation(pair, finest_numerics(nominal), observer)? {
                 Ok(pair) => foundations.push(pair),
                 Err(because) => return Ok(Err(because)),
             }
@@ -165,13 +168,14 @@ impl SampledScene {
 /// A pair on a foundation that finite elements of it calibrate, or why it is not taken.
 fn on_calibrated_foundation(
     scene: &LoadedScene,
+    finest: FinestNumerics,
     observer: &dyn Observer,
 ) -> Result<Result<LoadedScene, String>, UncertaintyStudyError> {
     observer.stage("calibration of the fast model");
     let calibrated = guarded(|| runs::calibrate(scene, CalibrationExtent::FastModel, observer));
     let because = match calibrated {
         Ok(Ok(calibrated)) => {
-            let on_foundation = scene.on_calibrated_foundation(calibrated.calibration, POSITIONS, FLANK_POINTS);
+            let on_foundation = scene.on_calibrated_foundation(calibrated.calibration, finest);
             return Ok(on_foundation.map_err(|error| one_line(&error.to_string())));
         }
         Ok(Err(CalibrateError::Interrupted)) => return Err(UncertaintyStudyError::Interrupted),
@@ -179,6 +183,12 @@ fn on_calibrated_foundation(
         Err(error) => error.to_string(),
     };
     Ok(Err(format!("the pair cannot be calibrated: {}", one_line(&because))))
+}
+
+/// Finest resolution of a pair on the foundation, whose run as given is `nominal`.
+fn finest_numerics(nominal: &WornPair) -> FinestNumerics {
+    let greatest_um = nominal.summary.pinion.peak_wear_um.max(nominal.summary.wheel.peak_wear_um);
+    FinestNumerics { positions: POSITIONS, flank_points: FLANK_POINTS, tolerance_um: TOLERANCE * greatest_um }
 }
 
 /// Shares of the distributions of `keys` keys where surfaces are compared: all low, all high, and high where a bit of the key's number is set, so that
@@ -306,6 +316,7 @@ mod tests {
     use crate::scene::loaded::SceneText;
     use crate::scene::planetary::PlanetaryScene;
     use gearwear_physics::observer::Unwatched;
+    use gearwear_physics::simulation::settings::Stepping;
 
     /// What two keys do against one another would not be seen where they only move together.
     #[test]
@@ -320,17 +331,19 @@ mod tests {
         assert_eq!(corners(1).len(), 2);
     }
 
-    /// A pair, and a mesh of a stage, whose own table lies above that of both, are on the foundation with its positions and points.
+    /// A pair, and a mesh of a stage, whose own table lies above that of both, are on the foundation with its positions, points and tolerance.
     #[test]
-    fn the_foundation_takes_few_positions_and_points() {
+    fn the_foundation_is_no_finer_than_asked() {
+        let finest = FinestNumerics { positions: POSITIONS, flank_points: FLANK_POINTS, tolerance_um: 0.25 };
         let text = include_str!("../../examples/planetary_stage.toml").to_owned();
         let stage = PlanetaryScene::from_text(SceneText { name: "stage".to_owned(), text }, Path::new("")).unwrap();
         let [pair, mesh] = [LoadedScene::preset("fzg-c").unwrap(), stage.meshes.planet_ring];
         for scene in [pair, mesh] {
             let own = scene.scene().numerics;
             assert!(own.positions > POSITIONS && own.flank_points > FLANK_POINTS);
-            let found = on_calibrated_foundation(&scene, &Unwatched).unwrap().unwrap();
+            let found = on_calibrated_foundation(&scene, finest, &Unwatched).unwrap().unwrap();
             let found = found.scene();
+            assert_eq!(found.numerics.stepping, Stepping::Adaptive { tolerance_mm: 1e-3 * 0.25 });
             assert_eq!(found.contact.surface, SurfaceKind::Winkler);
             assert_eq!((found.numerics.positions, found.numerics.flank_points), (POSITIONS, FLANK_POINTS));
         }
