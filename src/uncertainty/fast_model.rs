@@ -3,7 +3,9 @@
 //! Finite elements of the scene as given calibrate K/H and the stiffness of the teeth once. The foundation takes [`POSITIONS`] positions and
 //! [`FLANK_POINTS`] points at most: on 400 positions the wear of FZG type C is 0.2 % greater, that of its tip edges 0.5 % less, and 750 points change
 //! neither by more than 0.4 %. On 100 positions tip edges of deeply worn pairs differ by more than is taken. Adaptive steps may err by [`TOLERANCE`] of the
-//! greatest wear as given, which saves a third of the mesh cycles of deep wear and moves it by some 1e-4. The scene is then run on both surfaces, as given, with all uncertain keys low, with all high, and with some low and others high such that every two keys are once apart: the profile slopes of both
+//! shallowest depth that counts, the greatest wear of either gear as given or a limit: a third fewer mesh cycles of a 19/57 pair worn by 25 and 10 µm, whose
+//! wear moves by 5e-5. The scene is then run on both surfaces, as given, with all uncertain keys low, with all high, and with some low and others high such
+//! that every two keys are once apart: the profile slopes of both
 //! gears do nothing while they are alike. With y the figure on the scene's own surface and y' that on the foundation, as given (0) or with the keys so (±),
 //!
 //! ```text
@@ -15,6 +17,7 @@
 
 use serde::Serialize;
 
+use super::life::DepthLimit;
 use super::sampled_run::{SampledQuestion, UncertaintyStudyError, outputs_of, run_of};
 use crate::runs;
 use crate::scene::loaded::{FinestNumerics, LoadedScene};
@@ -24,7 +27,6 @@ use gearwear_physics::assessment::calibrate::{CalibrateError, CalibrationExtent}
 use gearwear_physics::assessment::guarded::guarded;
 use gearwear_physics::contact::settings::SurfaceKind;
 use gearwear_physics::observer::Observer;
-use gearwear_physics::results::worn_pair::WornPair;
 use gearwear_physics::stiffness::settings::StiffnessSettings;
 use gearwear_physics::wear::settings::WearOfPair;
 
@@ -36,8 +38,8 @@ pub const GREATEST_CORRECTION: f64 = 0.1;
 pub const POSITIONS: usize = 150;
 /// Most points of a flank on the foundation.
 pub const FLANK_POINTS: usize = 375;
-/// Least tolerance of adaptive steps on the foundation over the greatest wear as given.
-pub const TOLERANCE: f64 = 0.01;
+/// Least tolerance of adaptive steps on the foundation over the shallowest depth that counts.
+pub const TOLERANCE: f64 = 0.02;
 /// Shares of the distributions where both surfaces are compared too.
 const LOW_AND_HIGH: [f64; 2] = [0.05, 0.95];
 /// Number of runs from which a fast model pays.
@@ -119,7 +121,8 @@ impl SampledScene {
         }
         let mut foundations = Vec::new();
         for (pair, nominal) in scene.each().all().into_iter().zip(nominal_run.pairs().all()) {
-            match on_calibrated_foundation(pair, finest_numerics(nominal), observer)? {
+            let worn_um = [&nominal.summary.pinion, &nominal.summary.wheel].map(|wear| wear.peak_wear_um);
+            match on_calibrated_foundation(pair, finest_numerics(worn_um, &question.limits), observer)? {
                 Ok(pair) => foundations.push(pair),
                 Err(because) => return Ok(Err(because)),
             }
@@ -185,10 +188,11 @@ fn on_calibrated_foundation(
     Ok(Err(format!("the pair cannot be calibrated: {}", one_line(&because))))
 }
 
-/// Finest resolution of a pair on the foundation, whose run as given is `nominal`.
-fn finest_numerics(nominal: &WornPair) -> FinestNumerics {
-    let greatest_um = nominal.summary.pinion.peak_wear_um.max(nominal.summary.wheel.peak_wear_um);
-    FinestNumerics { positions: POSITIONS, flank_points: FLANK_POINTS, tolerance_um: TOLERANCE * greatest_um }
+/// Finest resolution of a pair on the foundation, whose gears wear by at most `worn_um` as given.
+fn finest_numerics(worn_um: [f64; 2], limits: &[DepthLimit]) -> FinestNumerics {
+    let depths_um = worn_um.into_iter().chain(limits.iter().map(|limit| limit.depth_um));
+    let tolerance_um = TOLERANCE * depths_um.fold(f64::INFINITY, f64::min);
+    FinestNumerics { positions: POSITIONS, flank_points: FLANK_POINTS, tolerance_um }
 }
 
 /// Shares of the distributions of `keys` keys where surfaces are compared: all low, all high, and high where a bit of the key's number is set, so that
@@ -314,6 +318,7 @@ mod tests {
 
     use super::*;
     use crate::scene::loaded::SceneText;
+    use crate::scene::opened::SceneKind;
     use crate::scene::planetary::PlanetaryScene;
     use gearwear_physics::observer::Unwatched;
     use gearwear_physics::simulation::settings::Stepping;
@@ -331,21 +336,29 @@ mod tests {
         assert_eq!(corners(1).len(), 2);
     }
 
-    /// A pair, and a mesh of a stage, whose own table lies above that of both, are on the foundation with its positions, points and tolerance.
+    /// A pair, and a mesh of a stage, whose own table lies above that of both, are on the foundation with its positions and points. Its tolerance is theirs
+    /// where that of the steps is finer, and their own where it is not.
     #[test]
     fn the_foundation_is_no_finer_than_asked() {
-        let finest = FinestNumerics { positions: POSITIONS, flank_points: FLANK_POINTS, tolerance_um: 0.25 };
         let text = include_str!("../../examples/planetary_stage.toml").to_owned();
         let stage = PlanetaryScene::from_text(SceneText { name: "stage".to_owned(), text }, Path::new("")).unwrap();
         let [pair, mesh] = [LoadedScene::preset("fzg-c").unwrap(), stage.meshes.planet_ring];
-        for scene in [pair, mesh] {
+        let limit = DepthLimit::parse(SceneKind::Pair, "pinion.peak_wear_um=12.5").unwrap();
+        let limited = std::slice::from_ref(&limit);
+        for (scene, worn_um, limits, tolerance_mm) in [
+            (&pair, [40.0, 12.5], &[][..], 1e-3 * 0.25),
+            (&pair, [40.0, 30.0], limited, 1e-3 * 0.25),
+            (&pair, [40.0, 0.0], &[], 1e-3 * 0.05),
+            (&mesh, [12.5, 40.0], &[], 1e-3 * 0.25),
+        ] {
             let own = scene.scene().numerics;
             assert!(own.positions > POSITIONS && own.flank_points > FLANK_POINTS);
-            let found = on_calibrated_foundation(&scene, finest, &Unwatched).unwrap().unwrap();
+            let finest = finest_numerics(worn_um, limits);
+            let found = on_calibrated_foundation(scene, finest, &Unwatched).unwrap().unwrap();
             let found = found.scene();
-            assert_eq!(found.numerics.stepping, Stepping::Adaptive { tolerance_mm: 1e-3 * 0.25 });
             assert_eq!(found.contact.surface, SurfaceKind::Winkler);
             assert_eq!((found.numerics.positions, found.numerics.flank_points), (POSITIONS, FLANK_POINTS));
+            assert_eq!(found.numerics.stepping, Stepping::Adaptive { tolerance_mm });
         }
     }
 }

@@ -59,7 +59,12 @@ const CASES: &[Case] = &[
     Case { name: "new pair, h501 on 60 positions", threads: 2, carry_out: || run(&new_pair("h501", 60)?) },
     Case { name: "calibrate", threads: 2, carry_out: calibrate },
     Case { name: "accuracy", threads: 2, carry_out: accuracy },
-    Case { name: "uncertainty", threads: 2, carry_out: uncertainty },
+    Case { name: "uncertainty", threads: 2, carry_out: || uncertainty(&LoadedScene::preset("fzg-c")?) },
+    Case {
+        name: "worn by 25 µm, uncertainty",
+        threads: 2,
+        carry_out: || uncertainty(&LoadedScene::from_toml(DEEPLY_WORN)?),
+    },
     Case { name: "sweep", threads: 2, carry_out: sweep },
 ];
 
@@ -82,6 +87,27 @@ hours = 200.0
 [wear]
 law = "archard"
 coefficient_m2_per_N = 0.9e-17
+"#;
+
+/// A pair of module 4, whose pinion is worn by 25 µm.
+const DEEPLY_WORN: &str = r#"
+[pair]
+normal_module_mm = 4.0
+pressure_angle_deg = 20.0
+centre_distance_mm = 152.0
+face_width_mm = 20.0
+pinion = { teeth = 19, profile_shift = 0.2, tip_rounding_mm = 0.1 }
+wheel = { teeth = 57, profile_shift = -0.2, tip_rounding_mm = 0.1 }
+[material]
+young_modulus_GPa = 206.0
+poisson_ratio = 0.3
+[operation]
+pinion_torque_Nm = 350.0
+pinion_speed_rpm = 500.0
+hours = 200.0
+[wear]
+law = "archard"
+coefficient_m2_per_N = 1.852e-17
 "#;
 
 /// The new pair of a preset: one revolution, without check.
@@ -126,7 +152,7 @@ fn accuracy() -> Found<()> {
     Ok(())
 }
 
-fn uncertainty() -> Found<()> {
+fn uncertainty(scene: &LoadedScene) -> Found<()> {
     let uncertain = ["wear.coefficient_m2_per_N=lognormal:1.5", "operation.pinion_torque_Nm=normal:5%"];
     let question = UncertaintyQuestion {
         uncertain: uncertain.map(str::to_owned).to_vec(),
@@ -137,7 +163,7 @@ fn uncertainty() -> Found<()> {
         seed: 1,
         on_own_surface: false,
     };
-    gearwear::uncertainty(&LoadedScene::preset("fzg-c")?, &question, None, 2, &Unwatched)?;
+    gearwear::uncertainty(scene, &question, None, 2, &Unwatched)?;
     Ok(())
 }
 
