@@ -30,15 +30,9 @@ fn alone(preset: &str) -> Result<LoadedScene, Failure> {
 
 fn of_samples(scene: &LoadedScene, samples: f64) -> Result<(), Failure> {
     let uncertain = ["wear.coefficient_m2_per_N=lognormal:1.5", "operation.pinion_torque_Nm=normal:5%"];
-    let question = UncertaintyQuestion {
-        uncertain: uncertain.map(str::to_owned).to_vec(),
-        correlation: Vec::new(),
-        outputs: Vec::new(),
-        limits: Vec::new(),
-        samples: samples as usize,
-        seed: 1,
-        on_own_surface: false,
-    };
+    let uncertain = uncertain.map(str::to_owned).to_vec();
+    let (samples, run_all) = (samples as usize, true);
+    let question = UncertaintyQuestion { uncertain, samples, run_all, ..UncertaintyQuestion::default() };
     gearwear::uncertainty(scene, &question, None, 1, &Unwatched)?;
     Ok(())
 }

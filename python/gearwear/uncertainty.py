@@ -100,7 +100,7 @@ class Uncertainty:
 
     @cached_property
     def samples(self) -> Table:
-        """A row for each run: point, matrix, values of the keys, figures."""
+        """A row for each sample: point, matrix, values of the keys, figures."""
         return Table("samples", self._native.samples())
 
     def band(self, gear: str) -> Band:
@@ -135,6 +135,7 @@ def uncertainty(
     outputs: Iterable[str] = (),
     limits: Mapping[str, float] | None = None,
     own_surface: bool = False,
+    run_all: bool = False,
     out: str | os.PathLike[str] | None = None,
     threads: int | None = None,
     progress: ProgressArgument = False,
@@ -143,11 +144,12 @@ def uncertainty(
 
     ``distributions`` has for each key a distribution as after ``--uncertain KEY=``: ``"lognormal:1.5"``, ``"normal:5%"``, ``"±2%"``, ``"uniform:10:14"``;
     or one of ``scipy.stats``: ``norm``, ``lognorm`` with ``loc`` 0, ``uniform`` or ``triang``, frozen with their parameters.
-    ``n`` points of a Sobol sequence, best a power of two, take n (keys + 2) runs, or 2 n where keys are correlated; ``seed`` scrambles them.
+    ``n`` points of a Sobol sequence, best a power of two, give n (keys + 2) samples, or 2 n where keys are correlated; ``seed`` scrambles them.
     ``correlation`` has for pairs of keys the correlation of their normal scores. ``outputs`` are paths in the summary, by default the maximum wear
     and tip-edge wear of both gears and the transmission error, worn; ``limits`` has depths of wear in µm whose life is asked for:
     ``{"pinion.peak_wear_um": 10}``. The samples are run on a calibrated Winkler foundation where their figures differ there by at most 5 %, with
-    ``own_surface`` always on the surface of the scene. ``out`` is a folder whose journal keeps each run as it is finished: the same
+    ``own_surface`` always on the surface of the scene; most are read off a response surface of the others where it misses figures by at most 5 % of their
+    standard deviation, with ``run_all`` none. ``out`` is a folder whose journal keeps each run as it is finished: the same
     call goes on with those that are missing, and ``write(out)`` adds the files. ``threads`` (None: all cores, one in a worker process) run a sample each and never change a bit of the results.
 
     What is wrong with the question raises :class:`ValueError`, and :class:`gearwear.RunError` is raised where no sample can be run.
@@ -168,7 +170,7 @@ def uncertainty(
     warn_of_older_names([*kept, *(limits or {})])
     with Watched(progress) as told:
         return Uncertainty(
-            scene._native.uncertainty(uncertain, pairs, kept, depths, samples, scrambling, own_surface, folder, count, told)
+            scene._native.uncertainty(uncertain, pairs, kept, depths, samples, scrambling, own_surface, run_all, folder, count, told)
         )
 
 

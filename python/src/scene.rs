@@ -274,11 +274,13 @@ impl Scene {
         samples: usize,
         seed: u32,
         on_own_surface: bool,
+        run_all: bool,
         folder: Option<PathBuf>,
         threads: usize,
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Uncertainty> {
-        let question = UncertaintyQuestion { uncertain, correlation, outputs, limits, samples, seed, on_own_surface };
+        let question =
+            UncertaintyQuestion { uncertain, correlation, outputs, limits, samples, seed, on_own_surface, run_all };
         many_runs::uncertainty(py, &self.loaded, question, folder, (threads, progress))
     }
 

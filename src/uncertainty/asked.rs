@@ -32,6 +32,24 @@ pub struct UncertaintyQuestion {
     pub seed: u32,
     /// Whether the samples are run on the contact surface of the scene, where a fast model would do.
     pub on_own_surface: bool,
+    /// Whether all samples are run, where a response surface would do for most.
+    pub run_all: bool,
+}
+
+impl Default for UncertaintyQuestion {
+    /// 512 samples of no key yet.
+    fn default() -> Self {
+        Self {
+            uncertain: Vec::new(),
+            correlation: Vec::new(),
+            outputs: Vec::new(),
+            limits: Vec::new(),
+            samples: 512,
+            seed: 1,
+            on_own_surface: false,
+            run_all: false,
+        }
+    }
 }
 
 impl UncertaintyQuestion {
@@ -125,6 +143,7 @@ impl SampledQuestion {
             samples: asked.samples,
             seed: asked.seed,
             on_own_surface: asked.on_own_surface,
+            run_all: asked.run_all,
         })
     }
 }

@@ -9,9 +9,11 @@
 //! | [`distribution`] | an uncertain key as the user writes it |
 //! | `usual` | what is usual, by a word |
 //! | [`design`] | samples from a Sobol sequence, correlations |
+//! | `sampling` | their numbers |
 //! | [`sampled_run`] | a run of the scene with some values of its keys |
 //! | [`fast_model`] | the contact surface of the samples |
 //! | `shared_runs` | samples that share a run |
+//! | `response_surface` | samples that are read off a response surface of the others |
 //! | [`kept`] | finished runs, kept in a journal |
 //! | [`study`] | runs them on all threads |
 //! | `bands` | quantiles of the wear over the flanks |
@@ -28,7 +30,9 @@ pub mod kept;
 pub mod life;
 pub mod record;
 pub mod report;
+mod response_surface;
 pub mod sampled_run;
+mod sampling;
 mod shared_runs;
 pub mod study;
 mod usual;

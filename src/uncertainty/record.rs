@@ -29,7 +29,7 @@ pub struct UncertaintyRecord {
     pub runs_asked: usize,
     /// Points that were finished: each gives two independent samples, on which the quantiles stand.
     pub samples: usize,
-    /// Runs of these points, and how many of them failed.
+    /// Samples of these points that were run or read off, and how many of them failed.
     pub runs: usize,
     pub failed: usize,
     /// Why the first of them failed.
@@ -43,6 +43,9 @@ pub struct UncertaintyRecord {
     pub wall_s: f64,
     /// Contact surface of the samples.
     pub surface: SampledSurface,
+    /// Samples that were read off a response surface of the others; null where all were run, as `no_response_surface_because` says.
+    pub response_surface: Option<ReadOffSamples>,
+    pub no_response_surface_because: Option<String>,
     /// The scene, as the user gave it.
     #[serde(skip)]
     pub scene_toml: String,
@@ -59,6 +62,16 @@ impl UncertaintyRecord {
     pub fn summary_json(&self) -> serde_json::Result<String> {
         serde_json::to_string(self)
     }
+}
+
+/// Samples that were run, and those that were read off a response surface of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+pub struct ReadOffSamples {
+    pub run: usize,
+    pub read_off: usize,
+    /// Total degree of the polynomial of the figures, and of that of the wear over the flanks.
+    pub degree: usize,
+    pub wear_degree: usize,
 }
 
 /// A figure of the runs.
@@ -88,6 +101,9 @@ pub struct OutputRecord {
     pub surface_correction: Option<f64>,
     /// Greatest relative difference that the contact surface of the samples makes to it with the keys low or high, so corrected; null likewise.
     pub surface_difference: Option<f64>,
+    /// Root mean square of what the response surface misses samples by that are left out of its fit, over the standard deviation, of a life that of the depth at the
+    /// end; null where all were run.
+    pub response_surface_error: Option<f64>,
     /// All values, rising.
     #[serde(skip)]
     pub sorted: Vec<f64>,
@@ -155,7 +171,7 @@ pub struct Band {
     pub quantiles_um: [Vec<f64>; 5],
 }
 
-/// A run.
+/// A sample.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SampleRow {
     /// Number of the point of the sequence, from 0.
@@ -164,6 +180,8 @@ pub struct SampleRow {
     pub matrix: String,
     /// Values of the uncertain keys.
     pub values: Vec<f64>,
+    /// Whether it was read off a response surface.
+    pub is_read_off: bool,
     /// Error of the fast model as a share of its bound, -1 to 1; `None` where it is not known.
     pub model_error: Option<f64>,
     /// The figures, and after them the lives.

@@ -35,6 +35,8 @@ pub struct SampledQuestion {
     pub seed: u32,
     /// Whether the samples are run on the contact surface of the scene, fast or not.
     pub on_own_surface: bool,
+    /// Whether all samples are run, where a response surface would do for most.
+    pub run_all: bool,
 }
 
 impl SampledQuestion {

@@ -8,18 +8,22 @@
 //! y = y_model (1 + (e + d) (2 u − 1))
 //! ```
 //!
-//! One u stands for all outputs, as their errors have one cause. Finished runs are kept in a journal, and a study that was stopped goes on with
-//! those that are missing.
+//! One u stands for all outputs, as their errors have one cause. Once a [response surface](super::response_surface) says what the other runs would, it
+//! stands for them. Finished runs are kept in a journal, and a study that was stopped goes on with those that are missing.
 
 use std::collections::BTreeSet;
 use std::time::Instant;
 
 use super::bands::{Places, bands, places_of, wear_at};
-use super::design::{Design, Matrix};
+use super::design::Matrix;
 use super::fast_model::{SampledScene, SampledSurface};
 use super::kept::{KeptRun, Ran, SampledStudy};
-use super::record::{FactorIndices, MODEL_ERROR, OutputRecord, Quantiles, SampleRow, UncertaintyRecord};
+use super::record::{
+    FactorIndices, MODEL_ERROR, OutputRecord, Quantiles, ReadOffSamples, SampleRow, UncertaintyRecord,
+};
+use super::response_surface::SampleSurfaces;
 use super::sampled_run::{FEWEST_SAMPLES, SampledQuestion, UncertaintyStudyError, outputs_of, run_of};
+use super::sampling::{INDEPENDENT, Sampling};
 use super::shared_runs;
 use crate::evaluate::figure;
 use crate::journal::{Journal, RowKeeper};
@@ -38,49 +42,6 @@ type Row = Result<Ran, String>;
 
 /// Fewest runs for each that is timed before.
 const RUNS_PER_TIMED: usize = 10;
-
-/// Samples of a point that are independent: A and B, from which quantiles are.
-const INDEPENDENT: usize = 2;
-
-/// The samples of a question: of each point A and B, and A with each key from B.
-struct Sampling<'a> {
-    question: &'a SampledQuestion,
-    design: Design,
-    /// Runs of a point.
-    matrices: Vec<Matrix>,
-}
-
-impl<'a> Sampling<'a> {
-    fn of(question: &'a SampledQuestion) -> Self {
-        let keys = question.uncertain.len();
-        let mixed = if question.correlation.is_some() { 0 } else { keys };
-        let correlation = question.correlation.as_ref().map(|correlation| correlation.lower.clone());
-        // One more for the error of the model, whether it is known or not: no sample depends on that.
-        let design = Design { factors: keys + 1, seed: question.seed, correlation };
-        let matrices = [Matrix::A, Matrix::B].into_iter().chain((0..mixed).map(Matrix::Mixed)).collect();
-        Self { question, design, matrices }
-    }
-
-    /// Point and matrix of a run.
-    fn of_run(&self, number: usize) -> (usize, Matrix) {
-        (number / self.matrices.len(), self.matrices[number % self.matrices.len()])
-    }
-
-    fn values(&self, point: usize, matrix: Matrix) -> Vec<f64> {
-        let u = self.design.sample(point, matrix);
-        self.question.uncertain.iter().zip(u).map(|(one, u)| one.distribution.quantile(u)).collect()
-    }
-
-    /// Numbers of the runs, in groups that share one.
-    fn groups(&self, varied: &VariedScene) -> Vec<Vec<usize>> {
-        let coefficient = shared_runs::coefficient_key(varied, self.question);
-        let values = |number: usize| {
-            let (point, matrix) = self.of_run(number);
-            self.values(point, matrix)
-        };
-        shared_runs::groups(self.question.samples, self.matrices.len(), coefficient, values)
-    }
-}
 
 /// Inputs of the samples.
 struct Samples<'a> {
@@ -104,31 +65,30 @@ impl Samples<'_> {
         self.bounds.iter().any(Option::is_some)
     }
 
-    /// Runs the first `matrices` samples of the first `points` that the journal does not have, in `groups` that share a run.
-    fn run_first(
+    /// Runs of `groups`, which share a run each, those with any of the samples `now` that the journal does not have. `in_all` are the samples that are to be
+    /// run, as far as that is known.
+    fn run_groups(
         &self,
         groups: &[Vec<usize>],
-        (points, matrices): (usize, usize),
+        (now, in_all): (impl Fn(usize) -> bool, impl Fn(usize) -> bool),
         journal: &mut Journal<SampledStudy>,
         threads: usize,
         observer: &dyn Observer,
     ) -> Result<(), UncertaintyStudyError> {
-        let of_a_point = self.sampling.matrices.len();
-        let total = self.question.samples * of_a_point;
         let rows = &journal.contents.rows;
-        let mut left: BTreeSet<usize> = (0..total).filter(|number| !rows.contains_key(number)).collect();
-        let asked = |number: &usize| number / of_a_point < points && number % of_a_point < matrices;
-        let is_asked = |group: &&Vec<usize>| group.iter().any(|number| asked(number) && left.contains(number));
+        let asked: BTreeSet<usize> = (0..self.sampling.total()).filter(|&number| in_all(number)).collect();
+        let mut left: BTreeSet<usize> = asked.iter().copied().filter(|number| !rows.contains_key(number)).collect();
+        let is_asked = |group: &&Vec<usize>| group.iter().any(|&number| now(number) && left.contains(&number));
         let tasks: Vec<&Vec<usize>> = groups.iter().filter(is_asked).collect();
-        let mut failed: BTreeSet<usize> =
-            rows.values().filter(|row| row.number < total && row.ran.is_err()).map(|row| row.number).collect();
+        let has_failed = |row: &KeptRun| row.ran.is_err() && asked.contains(&row.number);
+        let mut failed: BTreeSet<usize> = rows.values().filter(|row| has_failed(row)).map(|row| row.number).collect();
         let tell = |row: &KeptRun| {
             left.remove(&row.number);
-            if row.ran.is_err() && row.number < total {
+            if has_failed(row) {
                 failed.insert(row.number);
             }
             let beside = if failed.is_empty() { String::new() } else { format!(", {} failed", failed.len()) };
-            observer.counted(total - left.len(), total, "samples", &beside);
+            observer.counted(asked.len() - left.len(), asked.len(), "samples", &beside);
         };
         let mut kept = RowKeeper { journal, tell, error: None };
         let run = |group: &&Vec<usize>, within: &dyn Observer| self.run_group(group, within);
@@ -141,25 +101,17 @@ impl Samples<'_> {
         // The curve is of the flanks at the end of a run alone.
         let shares = group.len() > 1 && !self.question.reads_torque_curve();
         if let Some(pairs) = shares.then(|| self.shared_run(group, observer)).flatten() {
-            let kept = group.iter().zip(pairs).map(|(&number, pair)| {
-                let (_, matrix) = self.sampling.of_run(number);
-                KeptRun { number, ran: self.kept(&pair, matrix) }
-            });
-            return Some(kept.collect());
+            let both = group.iter().zip(pairs);
+            return Some(both.map(|(&number, pair)| KeptRun { number, ran: self.kept(&pair, number) }).collect());
         }
-        let alone = group.iter().map(|&number| {
-            let (point, matrix) = self.sampling.of_run(number);
-            Some(KeptRun { number, ran: self.run(point, matrix, observer)? })
-        });
+        let alone = group.iter().map(|&number| Some(KeptRun { number, ran: self.run(number, observer)? }));
         alone.collect()
     }
 
     /// The runs of samples that differ in their wear coefficients alone; `None` where each has to be run by itself.
     fn shared_run(&self, group: &[usize], observer: &dyn Observer) -> Option<Vec<StudiedRun>> {
-        let scenes = group.iter().map(|&number| {
-            let (point, matrix) = self.sampling.of_run(number);
-            self.varied.resolved(self.keys_with(&self.sampling.values(point, matrix))).ok()
-        });
+        let scenes =
+            group.iter().map(|&number| self.varied.resolved(self.keys_with(&self.sampling.values(number))).ok());
         let scenes = scenes.collect::<Option<Vec<_>>>()?;
         let (run, revolutions) = shared_runs::shared(&scenes)?;
         self.varied.inputs_belong_to(&run).ok()?;
@@ -183,21 +135,22 @@ impl Samples<'_> {
         keys.zip(values.iter().map(|&value| toml::Value::Float(value)).collect::<Vec<_>>())
     }
 
-    fn run(&self, point: usize, matrix: Matrix, observer: &dyn Observer) -> Option<Row> {
-        let values = self.sampling.values(point, matrix);
+    fn run(&self, number: usize, observer: &dyn Observer) -> Option<Row> {
+        let values = self.sampling.values(number);
         match run_of(self.varied, self.keys_with(&values), self.question, false, observer) {
-            Ok(found) => Some(self.kept(&found, matrix)),
+            Ok(found) => Some(self.kept(&found, number)),
             Err(UncertaintyStudyError::Interrupted) => None,
             Err(UncertaintyStudyError::Run(reason)) => Some(Err(reason)),
             Err(other) => Some(Err(other.to_string())),
         }
     }
 
-    fn kept(&self, found: &StudiedRun, matrix: Matrix) -> Row {
+    fn kept(&self, found: &StudiedRun, number: usize) -> Row {
+        let keeps_wear = self.sampling.is_independent(number, usize::MAX);
         Ok(Ran {
             outputs: outputs_of(self.question, found)?,
             growths: self.question.limits.iter().map(|limit| limit.growth(found)).collect(),
-            wear_um: matches!(matrix, Matrix::A | Matrix::B).then(|| wear_at(self.places, found)).flatten(),
+            wear_um: keeps_wear.then(|| wear_at(self.places, found)).flatten(),
         })
     }
 
@@ -239,8 +192,9 @@ impl Samples<'_> {
 }
 
 impl Samples<'_> {
-    fn row(&self, point: usize, matrix: Matrix, row: &Row) -> SampleRow {
+    fn row(&self, number: usize, row: &Row, is_read_off: bool) -> SampleRow {
         let question = self.question;
+        let (point, matrix) = self.sampling.of_number(number);
         SampleRow {
             point,
             matrix: match matrix {
@@ -248,7 +202,8 @@ impl Samples<'_> {
                 Matrix::B => "B".to_owned(),
                 Matrix::Mixed(factor) => question.uncertain[factor].key.clone(),
             },
-            values: self.sampling.values(point, matrix),
+            values: self.sampling.values(number),
+            is_read_off,
             model_error: self.times(point, matrix).0,
             outputs: match row {
                 Ok(ran) => {
@@ -361,48 +316,66 @@ impl<'a> PreparedStudy<'a> {
             corrections: &sampled.corrections,
             differences: &sampled.differences,
         };
-        // Of each point A and B at least, from the first on.
-        let of_a_point = sampling.matrices.len();
         let groups = sampling.groups(&sampled.varied);
-        let finished = |journal: &Journal<SampledStudy>, most: usize| -> Vec<Vec<Row>> {
-            let of_point = |point: usize| {
-                let numbers =
-                    (0..of_a_point).map_while(|matrix| journal.contents.rows.get(&(point * of_a_point + matrix)));
-                numbers.map(|kept| kept.ran.clone()).collect::<Vec<Row>>()
+        // Of each point A and B at least, from the first on.
+        let finished = |journal: &Journal<SampledStudy>, most: usize, surfaces: Surfaces<'_, '_>| -> Vec<Vec<Row>> {
+            let row = |number: usize| match surfaces {
+                Ok(surfaces) if !surfaces.run.contains(&number) => Some(surfaces.read_off(number)),
+                _ => journal.contents.rows.get(&number).map(|kept| kept.ran.clone()),
             };
+            let of_point = |point: usize| sampling.of_point(point).map_while(row).collect::<Vec<Row>>();
             (0..most).map(of_point).take_while(|rows| rows.len() >= INDEPENDENT).collect()
         };
-        let evaluated = |whole: &[Vec<Row>]| {
+        let evaluated = |whole: &[Vec<Row>], surfaces: Surfaces<'_, '_>| {
             let rows: Vec<&[Row]> = whole.iter().map(Vec::as_slice).collect();
             let surface = sampled.surface.clone();
-            let record = record(scene, &samples, &rows)?;
+            let record = record(scene, &samples, &rows, surfaces)?;
             Ok(UncertaintyRecord { surface, threads, wall_s: begun.elapsed().as_secs_f64(), ..record })
         };
-        // Quantiles first, of twice as many points each time; what Sobol indices need besides comes last.
-        let before = finished(journal, question.samples).len();
+        // Quantiles first, of twice as many points each time; what Sobol indices need besides comes last. A response surface ends both.
+        let because = if question.run_all { "all samples are asked to be run" } else { "the study goes on" };
+        let mut surfaces = Err(because.to_owned());
+        let before = finished(journal, question.samples, surfaces.as_ref()).len();
         let doubled = std::iter::successors(Some(FEWEST_SAMPLES), |points| points.checked_mul(2));
         let stages = doubled.take_while(|points| *points < question.samples).chain([question.samples]);
-        for points in stages.filter(|points| *points > before) {
-            samples.run_first(&groups, (points, INDEPENDENT), journal, threads, observer)?;
-            let whole = finished(journal, points);
-            let is_last = points == question.samples && of_a_point == INDEPENDENT;
-            if whole.len() == points && !is_last && whole.iter().flatten().any(Result::is_ok) {
-                earlier(&evaluated(&whole)?);
+        for points in stages {
+            let now = |number: usize| sampling.is_independent(number, points);
+            samples.run_groups(&groups, (now, |_| true), journal, threads, observer)?;
+            let whole = finished(journal, points, surfaces.as_ref());
+            let is_last = points == question.samples && sampling.matrices.len() == INDEPENDENT;
+            if whole.len() < points || is_last {
+                break;
+            }
+            if points > before && whole.iter().flatten().any(Result::is_ok) {
+                earlier(&evaluated(&whole, surfaces.as_ref())?);
+            }
+            if !question.run_all {
+                let rows = &journal.contents.rows;
+                surfaces = SampleSurfaces::fit(&sampling, &groups, points, |number| Some(&rows.get(&number)?.ran));
+            }
+            if surfaces.is_ok() {
+                break;
             }
         }
-        samples.run_first(&groups, (question.samples, of_a_point), journal, threads, observer)?;
-        let whole = finished(journal, question.samples);
+        let is_run = |number: usize| surfaces.as_ref().is_ok_and(|surfaces| surfaces.run.contains(&number));
+        let is_run = |number: usize| surfaces.is_err() || is_run(number);
+        samples.run_groups(&groups, (is_run, is_run), journal, threads, observer)?;
+        let whole = finished(journal, question.samples, surfaces.as_ref());
         if whole.len() < question.samples.min(FEWEST_SAMPLES) {
             return Err(UncertaintyStudyError::Interrupted);
         }
-        evaluated(&whole)
+        evaluated(&whole, surfaces.as_ref())
     }
 }
+
+/// Surfaces that samples are read off, or why there are none.
+type Surfaces<'s, 'q> = Result<&'s SampleSurfaces<'q>, &'s String>;
 
 fn record(
     scene: &OpenedScene,
     samples: &Samples<'_>,
     rows: &[&[Row]],
+    surfaces: Surfaces<'_, '_>,
 ) -> Result<UncertaintyRecord, UncertaintyStudyError> {
     let question = samples.question;
     let mut failures = rows.iter().flat_map(|row| row.iter()).filter_map(|row| row.as_ref().err());
@@ -412,6 +385,15 @@ fn record(
         return Err(UncertaintyStudyError::AllFailed { runs, first: first.clone() });
     }
     let figures = question.outputs.len() + question.limits.len();
+    let is_read_off = |number: usize| surfaces.is_ok_and(|surfaces| !surfaces.run.contains(&number));
+    let numbered = rows.iter().enumerate().flat_map(|(point, rows)| samples.sampling.of_point(point).zip(*rows));
+    let of_samples: Vec<SampleRow> =
+        numbered.map(|(number, row)| samples.row(number, row, is_read_off(number))).collect();
+    let errors = surfaces.map(SampleSurfaces::errors).unwrap_or_default();
+    let output = |figure: usize| OutputRecord {
+        response_surface_error: errors.get(figure).copied().flatten(),
+        ..output_record(samples, rows, figure)
+    };
     Ok(UncertaintyRecord {
         title: scene.title().to_owned(),
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -424,13 +406,13 @@ fn record(
             .map(|correlation| correlation.matrix.row_iter().map(|row| row.iter().copied().collect()).collect()),
         seed: question.seed,
         samples_asked: question.samples,
-        runs_asked: question.samples * samples.sampling.matrices.len(),
+        runs_asked: samples.sampling.total(),
         samples: rows.len(),
         runs,
         failed,
         first_failure,
         model_error_how: figure::how(&samples.nominal.total_errors()),
-        outputs: (0..figures).map(|figure| output_record(samples, rows, figure)).collect(),
+        outputs: (0..figures).map(output).collect(),
         bands: {
             let ran = rows.iter().flat_map(|row| &row[..INDEPENDENT]).filter_map(|row| row.as_ref().ok());
             bands(samples.places, samples.nominal, ran.filter_map(|ran| ran.wear_um.as_ref()))
@@ -438,8 +420,14 @@ fn record(
         threads: 0,
         wall_s: 0.0,
         surface: SampledSurface::default(),
+        response_surface: surfaces.ok().map(|surfaces| {
+            let [degree, wear_degree] = surfaces.degrees();
+            let read_off = of_samples.iter().filter(|row| row.is_read_off).count();
+            ReadOffSamples { run: runs - read_off, read_off, degree, wear_degree }
+        }),
+        no_response_surface_because: surfaces.err().cloned(),
         scene_toml: scene.given().text.clone(),
-        rows: sample_rows(samples, rows),
+        rows: of_samples,
     })
 }
 
@@ -494,6 +482,7 @@ fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Outpu
         model_error: samples.errors[figure],
         surface_correction: samples.corrections.get(figure).copied(),
         surface_difference: samples.differences.get(figure).copied(),
+        response_surface_error: None,
         samples: sorted.len(),
         censored: is_life.then(|| censored as f64 / sorted.len().max(1) as f64),
         mean: complete.then(|| mean(sorted.iter().copied())),
@@ -528,13 +517,4 @@ fn factor_indices(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Resu
     let names = samples.question.uncertain.iter().map(|one| one.key.as_str()).chain([MODEL_ERROR]);
     let both = found.first.into_iter().zip(found.total);
     Ok(names.zip(both).map(|(name, (first, total))| FactorIndices { factor: name.to_owned(), first, total }).collect())
-}
-
-fn sample_rows(samples: &Samples<'_>, rows: &[&[Row]]) -> Vec<SampleRow> {
-    let matrices = &samples.sampling.matrices;
-    let mut sample_rows = Vec::new();
-    for (point, row) in rows.iter().enumerate() {
-        sample_rows.extend(matrices.iter().zip(*row).map(|(&matrix, row)| samples.row(point, matrix, row)));
-    }
-    sample_rows
 }

@@ -152,6 +152,59 @@ fn a_study_is_written_and_threads_change_nothing() {
     assert_ne!(output(&timeless(&bench.out("seed")), "pinion.peak_wear_um")["mean"], peak["mean"]);
 }
 
+/// Most samples are read off a response surface of the others, with the errors that are said, and are marked so; `--run-all` goes on with the same journal, and
+/// runs them all.
+#[test]
+fn most_samples_are_read_off_a_response_surface() {
+    let bench = Bench::new();
+    let samples = ["--samples", "256"];
+    done(&bench.study("out", &[K, TORQUE], &samples));
+    let found = timeless(&bench.out("out"));
+    let of = &found["response_surface"];
+    let [run, read_off] = ["run", "read_off"].map(|key| of[key].as_u64().unwrap());
+    assert!(run + read_off == 1024 && (128..512).contains(&run), "{of}");
+    assert_eq!((&found["runs"], &found["no_response_surface_because"]), (&json!(1024), &Value::Null));
+    let journal = fs::read_to_string(bench.out("out").join("rows.jsonl")).unwrap();
+    assert_eq!(journal.lines().count() as u64, 1 + run);
+    let values = |name: &str, column: &str| -> Vec<String> {
+        let table = fs::read_to_string(bench.out(name).join("samples.csv")).unwrap();
+        let at = table.lines().next().unwrap().split(',').position(|heading| heading == column).unwrap();
+        table.lines().skip(1).map(|line| line.split(',').nth(at).unwrap().to_owned()).collect()
+    };
+    let source = values("out", "source");
+    assert_eq!(source.iter().filter(|source| *source == "response surface").count() as u64, read_off);
+    let peaks = values("out", "pinion.peak_wear_um");
+
+    done(&bench.study("out", &[K, TORQUE], &[&samples[..], &["--run-all"]].concat()));
+    done(&bench.study("all", &[K, TORQUE], &[&samples[..], &["--run-all"]].concat()));
+    let all = timeless(&bench.out("all"));
+    assert_eq!(timeless(&bench.out("out")), all);
+    assert_eq!(all["response_surface"], Value::Null);
+    assert!(all["no_response_surface_because"].as_str().unwrap().contains("asked to be run"));
+    for name in ["pinion.peak_wear_um", "wheel.peak_wear_um", "worn.transmission_error_um.peak_to_peak"] {
+        let [one, other] = [&found, &all].map(|record| output(record, name));
+        let [deviation, error] =
+            [&other["standard_deviation"], &one["response_surface_error"]].map(|of| of.as_f64().unwrap());
+        assert!(error <= 0.05 && other["response_surface_error"].is_null(), "{name}: {error}");
+        for quantile in ["p05", "p25", "p50", "p75", "p95"] {
+            let [one, other] = [one, other].map(|of| of["quantiles"][quantile].as_f64().unwrap());
+            assert!((one - other).abs() < 0.02 * deviation, "{name}, {quantile}: {one} and {other}");
+        }
+    }
+    let of_all = values("all", "pinion.peak_wear_um");
+    let both = peaks.iter().zip(&of_all).zip(&source).map(|((one, other), source)| {
+        let [one, other]: [f64; 2] = [one, other].map(|value| value.parse().unwrap());
+        (one - other, source == "run")
+    });
+    let both: Vec<(f64, bool)> = both.collect();
+    assert!(both.iter().all(|(difference, is_run)| !is_run || *difference == 0.0));
+    let squares: f64 = both.iter().map(|(difference, _)| difference * difference).sum();
+    let missed = (squares / read_off as f64).sqrt();
+    let of_peaks = output(&found, "pinion.peak_wear_um");
+    let said = of_peaks["response_surface_error"].as_f64().unwrap() * of_peaks["standard_deviation"].as_f64().unwrap();
+    assert!(missed < 1.5 * said, "{missed} for {said}");
+}
+
 /// Wear within the first steps is proportional to k, so that its quantiles are those of k, and k alone explains all of it. The median of
 /// a lognormal k is the scene's own value.
 #[test]

@@ -57,6 +57,9 @@ pub(super) struct UncertaintyArgs {
     /// by at most 5 %
     #[arg(long)]
     own_surface: bool,
+    /// Run all samples; left out: those that a response surface of the others gives, with at most 5 % of the standard deviation as error
+    #[arg(long)]
+    run_all: bool,
     /// Number of threads; default: all cores. Never changes the results, but the times
     #[arg(long, value_name = "N")]
     threads: Option<NonZeroUsize>,
@@ -76,6 +79,7 @@ pub(super) fn run(args: &UncertaintyArgs) -> Result<(), Failure> {
         samples: args.samples,
         seed: args.seed,
         on_own_surface: args.own_surface,
+        run_all: args.run_all,
     };
     let question = SampledQuestion::of(&scene, &asked)?;
     asked.notes().iter().for_each(|note| say(&format!("note: {note}")));
@@ -95,7 +99,8 @@ pub(super) fn run(args: &UncertaintyArgs) -> Result<(), Failure> {
     if !args.quiet
         && let Some(seconds) = prepared.seconds_left(&journal, thread_count(args.threads), &progress)
     {
-        say(&format!("the runs take some {} s, the machine as busy as now", two_digits(seconds)));
+        let fewer = if question.run_all { "" } else { "; a response surface may do with fewer" };
+        say(&format!("the runs take some {} s, the machine as busy as now{fewer}", two_digits(seconds)));
     }
     let mut not_written = None;
     let record = prepared.run(&mut journal, thread_count(args.threads), &progress, |record| {
@@ -170,8 +175,11 @@ fn earlier(record: &UncertaintyRecord) -> String {
 
 /// Quantiles and indices, for the terminal.
 fn table(record: &UncertaintyRecord, out: &Path) -> String {
+    let read_off = record
+        .response_surface
+        .map_or_else(String::new, |of| format!(" ({} of them read off a response surface of the others)", of.read_off));
     let mut text = format!(
-        "{}\n\n{} points, {} runs, {} failed, in {} s\n\n  {:42}{:>12}{:>12}{:>12}{:>12}\n",
+        "{}\n\n{} points, {} samples{read_off}, {} failed, in {} s\n\n  {:42}{:>12}{:>12}{:>12}{:>12}\n",
         record.title,
         record.samples,
         record.runs,

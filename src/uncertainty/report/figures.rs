@@ -224,6 +224,7 @@ mod tests {
             no_indices_because: None,
             surface_correction: None,
             surface_difference: None,
+            response_surface_error: None,
             sorted: vec![10.0, 20.0, 40.0, f64::INFINITY],
         };
         let chart = life(0, &output).unwrap();

@@ -2,7 +2,7 @@
 //!
 //! | file | from |
 //! |---|---|
-//! | `samples.csv` | one row per run |
+//! | `samples.csv` | one row per sample |
 //! | `columns.json` | what its columns hold |
 //! | `report.html` | `page` |
 //! | `scene.toml` | the scene as the user gave it |
@@ -70,6 +70,8 @@ fn columns(record: &UncertaintyRecord) -> Vec<Column> {
         let meaning = format!("{}{unit}, with the error of the fast model{longer}", output.meaning);
         columns.push(column(&output.output, meaning));
     }
+    let read_off = "run, or response surface: read off one that is fitted to those that were run";
+    columns.push(column("source", read_off.to_owned()));
     columns.push(column("error", "why there are no figures".to_owned()));
     columns
 }
@@ -79,6 +81,8 @@ fn rows(record: &UncertaintyRecord) -> impl Iterator<Item = Vec<Cell<'_>>> {
         let numbers = row.values.iter().map(|&value| Some(value)).chain([row.model_error]);
         let numbers = numbers.chain(row.outputs.iter().copied()).map(Cell::Number);
         let head = [Cell::count(row.point), Cell::Text(Some(Cow::Borrowed(&row.matrix)))];
-        head.into_iter().chain(numbers).chain([Cell::Text(row.error.as_deref().map(Cow::Borrowed))]).collect()
+        let source = if row.is_read_off { "response surface" } else { "run" };
+        let tail = [Some(source), row.error.as_deref()].map(|text| Cell::Text(text.map(Cow::Borrowed)));
+        head.into_iter().chain(numbers).chain(tail).collect()
     })
 }

@@ -12,7 +12,7 @@ use crate::uncertainty::record::UncertaintyRecord;
 use gearwear_bodies::reference::sobol_indices::Index;
 
 const DATA_FILES: &[(&str, &str)] = &[
-    (SAMPLES, "one row per run: values of the keys, figures, errors"),
+    (SAMPLES, "one row per sample: values of the keys, figures, whether it was run, errors"),
     (LAST, "distributions, quantiles, indices, bands"),
     (output_files::SCENE, "the scene as given"),
     (journal::FILE_NAME, "the runs as they were finished; a restart reads it"),
@@ -168,13 +168,34 @@ fn indices(record: &UncertaintyRecord) -> Markup {
     }
 }
 
+/// Which samples were run.
+fn read_off(record: &UncertaintyRecord) -> String {
+    let Some(of) = record.response_surface else {
+        let because = record.no_response_surface_because.as_deref().unwrap_or_default();
+        return format!("All samples were run: {because}.");
+    };
+    let errors = record.outputs.iter().filter_map(|output| output.response_surface_error);
+    format!(
+        "{} samples were run; the other {} were read off a response surface of them, a polynomial in the keys (in the logarithm of lognormal ones) of total \
+         degree {}. Samples that are left out of its fit it misses by at most {} of the standard deviation of any figure (root mean square); the wear \
+         over the flanks has one of degree {}.",
+        count(of.run as u64),
+        count(of.read_off as u64),
+        of.degree,
+        percent(errors.fold(0.0, f64::max)),
+        of.wear_degree
+    )
+}
+
 fn work(record: &UncertaintyRecord) -> Markup {
     html! {
         p {
             (count(record.samples as u64)) " points of a scrambled Sobol sequence (seed " (record.seed) ") gave " (count(record.runs as u64))
             " samples of the scene in " (significant(record.wall_s, 3)) " s on "
             (if record.threads == 1 { "one thread".to_owned() } else { format!("{} threads", record.threads) })
-            ". Verification, error estimates and snapshots were left out of the samples; the scene as given was run and verified once, unless it \
+            ". "
+            (read_off(record))
+            " Verification, error estimates and snapshots were left out of the samples; the scene as given was run and verified once, unless it \
              turns verification off. Quantiles are those of two independent samples a point."
         }
     }

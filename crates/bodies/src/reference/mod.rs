@@ -11,6 +11,7 @@ pub mod monotone_cubic;
 pub mod moving_heat_band;
 pub mod persson;
 pub mod radial_basis;
+pub mod response_surface;
 pub mod separate_peaks;
 pub mod sobol_indices;
 pub mod statistics;

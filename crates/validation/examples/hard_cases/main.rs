@@ -154,15 +154,8 @@ fn accuracy() -> Found<()> {
 
 fn uncertainty(scene: &LoadedScene) -> Found<()> {
     let uncertain = ["wear.coefficient_m2_per_N=lognormal:1.5", "operation.pinion_torque_Nm=normal:5%"];
-    let question = UncertaintyQuestion {
-        uncertain: uncertain.map(str::to_owned).to_vec(),
-        correlation: Vec::new(),
-        outputs: Vec::new(),
-        limits: Vec::new(),
-        samples: 512,
-        seed: 1,
-        on_own_surface: false,
-    };
+    let question =
+        UncertaintyQuestion { uncertain: uncertain.map(str::to_owned).to_vec(), ..UncertaintyQuestion::default() };
     gearwear::uncertainty(scene, &question, None, 2, &Unwatched)?;
     Ok(())
 }
