@@ -41,7 +41,7 @@ pub(super) enum Direction {
 }
 
 /// Part of the flanks with multipliers: around the expected contact, and as far as flanks overlapped beside an earlier window.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct SearchWindow {
     /// Number of tooth pairs on either side of the reference pair.
     pub beside: i32,
@@ -56,7 +56,7 @@ pub(super) struct SearchWindow {
 }
 
 /// Overlap of the flanks of a tooth pair beside its window.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct FlankOverlap {
     pub pair: i32,
     /// Both ends on each flank, from its tip end, mm.

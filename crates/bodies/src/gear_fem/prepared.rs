@@ -54,6 +54,8 @@ pub struct PreparedPosition {
     pub(super) kept: Option<ReusableFactor>,
     /// Number of the window, from 1.
     windows: usize,
+    /// Position in the last window before it was reset, without contact.
+    wider: Option<Box<PreparedPosition>>,
 }
 
 /// Contact of unworn flanks, from which that of worn ones is found.
@@ -132,6 +134,7 @@ impl<'a> CondensedPair<'a> {
             active: None,
             kept: None,
             windows: 1,
+            wider: None,
         }
     }
 
@@ -189,16 +192,19 @@ impl<'a> CondensedPair<'a> {
 
     /// Resets a prepared position to its state before any solution: with the contact of its unworn flanks, without tilt, with its first window.
     pub fn reset(&self, prepared: &mut PreparedPosition) {
+        prepared.level();
         if prepared.windows > 1 {
             let SearchWindow { beside, line_load_n_per_mm, .. } = prepared.window;
-            *prepared = self.unworn(prepared.position_mm, self.first_window(beside, line_load_n_per_mm));
-        } else {
-            prepared.level();
+            let first = self.unworn(prepared.position_mm, self.first_window(beside, line_load_n_per_mm));
+            prepared.wider = Some(Box::new(std::mem::replace(prepared, first)));
         }
     }
 
     fn widen(&self, prepared: &mut PreparedPosition, window: SearchWindow) {
-        let mut next = self.observe(prepared.position_mm, window);
+        let mut next = match prepared.wider.take() {
+            Some(wider) if wider.window == window => *wider,
+            other => PreparedPosition { wider: other, ..self.observe(prepared.position_mm, window) },
+        };
         next.active = prepared.active.as_ref().map(|active| carried_over(&prepared.facings, active, &next.facings));
         next.windows = prepared.windows + 1;
         *prepared = next;

@@ -62,8 +62,9 @@ pub(super) fn estimate(
     }
     let slices = coarse_slices(model);
     let runs = wear_runs::estimate(model, outcome, slices.as_ref(), step_over_safe, is_verified, observer);
-    let (severe_switch, switch_cost) = severe_switch::estimate(model, outcome, BUDGET - runs.cost, observer);
+    // First what is on the positions of the run, which are kept: the other has fewer.
     let (severe_limit, limit_how) = severe_limit::estimate(model, outcome, observer);
+    let (severe_switch, switch_cost) = severe_switch::estimate(model, outcome, BUDGET - runs.cost, observer);
     if observer.interrupted() {
         return ErrorSummary::not_estimated("the estimates were interrupted");
     }

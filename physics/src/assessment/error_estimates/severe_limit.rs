@@ -29,10 +29,7 @@ fn is_severe_with(model: &RunModel<'_>, outcome: &Outcome, part: f64) -> bool {
 /// # Errors
 /// Reason why that run is not completed.
 fn with_limit(model: &RunModel<'_>, part: f64, observer: &dyn Observer) -> Result<WearAtLimit, String> {
-    // A run ended by a limit of its service life has no later snapshots.
-    let asked = model.scene.operation.snapshots_revolutions.iter().copied();
-    let snapshots: Vec<f64> = asked.filter(|at| *at < model.duration()).collect();
-    let run = WearRun { snapshots_revolutions: &snapshots, ..model.wear_run() };
+    let run = WearRun { snapshots_revolutions: &[], ..model.wear_run() };
     let outcome = run_with_transition(run, model, |own| own.with_limit(part), observer);
     let outcome = outcome.map_err(|error| error.to_string())?;
     match &outcome.failure {
