@@ -34,6 +34,8 @@ const SAMPLES_PER_TERM: usize = 2;
 const GREATEST_LEVERAGE: f64 = 1.0;
 /// Most further runs over those that the surface is fitted to: where more samples are beyond it, twice as many to fit are the better use.
 const MOST_FURTHER: usize = 2;
+/// Error below which others count alike.
+const NEGLIGIBLE_ERROR: f64 = 0.01;
 /// Ratio of the errors of two degrees that count alike.
 const AS_GOOD: f64 = 1.5;
 /// Standard deviation of values that differ by round-off, over the greatest.
@@ -61,9 +63,34 @@ struct Surface {
     beyond: BTreeSet<usize>,
 }
 
+/// Why samples cannot be read off a surface of some columns.
+enum Misfit {
+    /// Too many samples are beyond those that are run.
+    Beyond,
+    /// The error of this column is too great.
+    Missed { column: usize, error: f64 },
+}
+
 impl Surface {
-    fn greatest_error(&self) -> f64 {
-        self.errors.iter().copied().fold(0.0, f64::max)
+    /// Greatest error, and the column that has it.
+    fn greatest_error(&self) -> (f64, usize) {
+        let errors = self.errors.iter().copied().zip(0..);
+        errors.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default()
+    }
+}
+
+impl Misfit {
+    /// The reason in words; `name` is that of a column.
+    fn of<'n>(&self, name: impl Fn(usize) -> &'n str) -> String {
+        match *self {
+            Self::Beyond => "too many samples lie beyond those that are run".to_owned(),
+            Self::Missed { column, error } => format!(
+                "a polynomial of the keys misses {} of samples that are left out by {:.0} % of the standard deviation, more than {:.0} %",
+                name(column),
+                100.0 * error,
+                100.0 * GREATEST_ERROR
+            ),
+        }
     }
 }
 
@@ -98,20 +125,24 @@ impl<'a> SampleSurfaces<'a> {
         let fitted = Fitted { sampling, groups, run: &first };
         let of_figures = of_numbers.iter().map(|ran| figures(ran, &like)).collect::<Option<Vec<Vec<f64>>>>();
         let of_figures = of_figures.ok_or("some samples have figures that others do not have")?;
-        let figures = fitted.surface(&numbers, &of_figures, |_| true, deviations, AS_GOOD)?;
+        let figures = fitted
+            .surface(&numbers, &of_figures, |_| true, deviations, AS_GOOD)
+            .map_err(|misfit| misfit.of(|column| name(sampling, &like, column)))?;
         let (worn, wear): (Vec<usize>, Vec<Vec<f64>>) = numbers
             .iter()
             .zip(&of_numbers)
             .filter_map(|(&number, ran)| Some((number, columns_of(ran.wear_um.as_ref()?))))
             .unzip();
         let flanks = flanks_of(like.wear_um.as_ref());
-        let wear = fitted.surface(
-            &worn,
-            &wear,
-            |number| sampling.is_independent(number, usize::MAX),
-            |values| greatest_by_flank(deviations(values), &flanks),
-            f64::INFINITY,
-        )?;
+        let wear = fitted
+            .surface(
+                &worn,
+                &wear,
+                |number| sampling.is_independent(number, usize::MAX),
+                |values| greatest_by_flank(deviations(values), &flanks),
+                f64::INFINITY,
+            )
+            .map_err(|misfit| misfit.of(|_| "the wear over the flanks"))?;
         let run: BTreeSet<usize> = first.iter().chain(&figures.beyond).chain(&wear.beyond).copied().collect();
         let run: BTreeSet<usize> = run.into_iter().flat_map(|group| groups[group].iter().copied()).collect();
         if (0..sampling.total()).all(|number| run.contains(&number)) {
@@ -168,7 +199,7 @@ impl Fitted<'_> {
         are_asked: impl Fn(usize) -> bool,
         scales: impl Fn(&DMatrix<f64>) -> Vec<f64>,
         as_good: f64,
-    ) -> Result<Surface, String> {
+    ) -> Result<Surface, Misfit> {
         let width = columns.first().map_or(0, Vec::len);
         let values = DMatrix::from_fn(columns.len(), width, |row, column| columns[row][column]);
         let scales = scales(&values);
@@ -201,19 +232,13 @@ impl Fitted<'_> {
                 found.push(Surface { surface, values: values.clone(), errors, beyond });
             }
         }
-        if found.is_empty() {
-            return Err("too many samples lie beyond those that are run".to_owned());
-        }
-        let least = found.iter().map(Surface::greatest_error).fold(f64::INFINITY, f64::min);
-        let good_enough = GREATEST_ERROR.min(as_good * least);
-        let good = found.into_iter().filter(|surface| surface.greatest_error() <= good_enough);
-        good.min_by_key(|surface| surface.beyond.len()).ok_or_else(|| {
-            format!(
-                "a polynomial of the keys misses samples that are left out by {:.0} % of the standard deviation, more than {:.0} %",
-                100.0 * least,
-                100.0 * GREATEST_ERROR
-            )
-        })
+        let greatest: Vec<(f64, usize)> = found.iter().map(Surface::greatest_error).collect();
+        let Some(&(least, column)) = greatest.iter().min_by(|a, b| a.0.total_cmp(&b.0)) else {
+            return Err(Misfit::Beyond);
+        };
+        let good_enough = GREATEST_ERROR.min(NEGLIGIBLE_ERROR.max(as_good * least));
+        let good = found.into_iter().filter(|surface| surface.greatest_error().0 <= good_enough);
+        good.min_by_key(|surface| surface.beyond.len()).ok_or(Misfit::Missed { column, error: least })
     }
 }
 
@@ -254,6 +279,15 @@ fn figures(ran: &Ran, like: &Ran) -> Option<Vec<f64>> {
     let values = ran.outputs.iter().filter_map(|output| output.value);
     let growths = ran.growths.iter().flatten().flat_map(|&(time, depth)| [time, depth]);
     is_alike.then(|| values.chain(growths).collect())
+}
+
+/// Name of the figure of a column.
+fn name<'a>(sampling: &Sampling<'a>, like: &Ran, column: usize) -> &'a str {
+    let outputs = sampling.question.outputs.iter().zip(&like.outputs).filter(|(_, output)| output.value.is_some());
+    let outputs = outputs.map(|(output, _)| output.path.as_str());
+    let limits = sampling.question.limits.iter().zip(&like.growths);
+    let limits = limits.flat_map(|(limit, growth)| std::iter::repeat_n(limit.output, 2 * growth.len()));
+    outputs.chain(limits).nth(column).unwrap_or_default()
 }
 
 /// Wear of all flanks in a row.
@@ -355,11 +389,12 @@ mod tests {
         let surfaces = fit(&sampling, 32, &runs).unwrap();
         assert!((128..512).contains(&surfaces.run.len()), "{} of 1024 are run", surfaces.run.len());
         assert!((0..4 * 32).all(|number| surfaces.run.contains(&number)));
-        let mut missed = Vec::new();
+        let (mut missed, mut missed_values) = (Vec::new(), Vec::new());
         for number in (0..sampling.total()).filter(|number| !surfaces.run.contains(number)) {
             let (found, run) = (surfaces.read_off(number).unwrap(), runs[&number].as_ref().unwrap());
             let [value, expected] = [&found, run].map(|ran| ran.outputs[0].value.unwrap());
-            assert!((value / expected - 1.0).abs() < 1e-3, "{number}: {value} for {expected}");
+            assert!((value / expected - 1.0).abs() < 0.03, "{number}: {value} for {expected}");
+            missed_values.push(value - expected);
             assert_eq!(found.wear_um.is_some(), number % 4 < 2);
             if let Some(EachMesh::Pair(worn)) = found.wear_um {
                 let [pinion, unworn, wheel] = [worn.pinion[0], worn.pinion[1], worn.wheel[0]].map(f64::from);
@@ -368,9 +403,10 @@ mod tests {
             }
         }
         let all = runs.values().filter_map(|run| run.as_ref().ok()?.outputs[0].value).collect::<Vec<f64>>();
-        let [missed, all] = [missed, all].map(|values| standard_deviation(&values).unwrap());
-        assert!(missed < 0.05 * all, "{missed} for {all}");
-        assert!(surfaces.errors()[0].unwrap() < 1e-3 && surfaces.errors().len() == 1);
+        let [missed, missed_values, all] =
+            [missed, missed_values, all].map(|values| standard_deviation(&values).unwrap());
+        assert!(missed < 0.05 * all && missed_values < 0.01 * all, "{missed} and {missed_values} for {all}");
+        assert!(surfaces.errors()[0].unwrap() < 0.01 && surfaces.errors().len() == 1);
     }
 
     /// What is said of the error is what samples are missed by that are read off, in both directions: here by scatter of 3 % of the standard deviation, of
@@ -415,7 +451,7 @@ mod tests {
             fit(&sampling, points, runs).err().unwrap_or_default()
         };
         let jumps = runs(&sampling, |at| wear(at) + if at[1] > 1.02 { 3.0 } else { 0.0 });
-        assert!(because(&jumps, 64).contains("of the standard deviation, more than 5 %"), "{}", because(&jumps, 64));
+        assert!(because(&jumps, 64).contains("misses pinion.peak_wear_um of samples that are left out by"));
         let mut random = fastrand::Rng::with_seed(1);
         let scatters = runs(&sampling, |at| wear(at) + 3.0 * random.f64());
         assert!(because(&scatters, 128).contains("more than 5 %"), "{}", because(&scatters, 128));

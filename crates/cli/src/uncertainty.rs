@@ -118,7 +118,7 @@ pub(super) fn run(args: &UncertaintyArgs) -> Result<(), Failure> {
     }
     if record.runs < record.runs_asked {
         say(&format!(
-            "interrupted: {} of {} runs were finished and are kept; --resume {} goes on",
+            "interrupted: figures of {} of {} samples; finished runs are kept, and --resume {} goes on",
             record.runs,
             record.runs_asked,
             out.display()

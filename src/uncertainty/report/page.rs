@@ -23,7 +23,7 @@ pub(super) fn page(record: &UncertaintyRecord) -> String {
     let shown = figures::of(record);
     let interruption = (record.runs < record.runs_asked).then(|| {
         format!(
-            "Figures of the first {} of {} runs: the study goes on, or was interrupted.",
+            "Figures of the first {} of {} samples: the study goes on, or was interrupted.",
             count(record.runs as u64),
             count(record.runs_asked as u64)
         )
@@ -33,7 +33,7 @@ pub(super) fn page(record: &UncertaintyRecord) -> String {
         .iter()
         .map(|first| {
             let (failed, runs) = (count(record.failed as u64), count(record.runs as u64));
-            format!("{failed} of {runs} runs failed and are in none of the figures; the first: {first}")
+            format!("{failed} of {runs} samples failed and are in none of the figures; the first: {first}")
         })
         .collect();
     Page {
