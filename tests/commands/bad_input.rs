@@ -86,7 +86,11 @@ impl Case {
         fs::create_dir_all(&folder).unwrap();
         let mut hasher = DefaultHasher::new();
         self.text.hash(&mut hasher);
-        fs::write(folder.join(format!("{:016x}.toml", hasher.finish())), &self.text).unwrap();
+        // Named by its contents: Python may be reading what an earlier run has left.
+        let scene = folder.join(format!("{:016x}.toml", hasher.finish()));
+        if !scene.exists() {
+            fs::write(scene, &self.text).unwrap();
+        }
     }
 
     /// Plans the scene, which must be accepted, and gives the warnings.
