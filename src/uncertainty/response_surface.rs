@@ -5,7 +5,8 @@
 //! that share its run, and where the root mean square of what it is missed by is at most [`GREATEST_ERROR`] of the standard deviation, for all figures, the
 //! other samples are read off. That is below what quantiles of some thousand samples scatter by, and leaves them and Sobol indices as they are. Samples
 //! at which the surface has a leverage above 1, mostly beyond those that it is fitted to, are run (and count for none of these errors where they are left
-//! out): there it would carry on what it knows of others.
+//! out): there it would carry on what it knows of others. As those that are read off lie farther out than those that it is fitted to, they are missed by up to half
+//! as much again.
 //!
 //! Of the degrees of about the least error the one is taken for which the fewest samples have to be run. Wear at the places of the bands has a surface of its own, of
 //! the samples A and B and of any degree that will do; its errors are compared with the greatest standard deviation over the flank.
@@ -409,8 +410,8 @@ mod tests {
         assert!(surfaces.errors()[0].unwrap() < 0.01 && surfaces.errors().len() == 1);
     }
 
-    /// What is said of the error is what samples are missed by that are read off, in both directions: here by scatter of 3 % of the standard deviation, of
-    /// which samples that share a run have the same.
+    /// What is said of the error is about what samples are missed by that are read off, in both directions: here by scatter of 3 % of the standard deviation,
+    /// of which samples that share a run have the same. With the fewest runs it is too low by a fifth on average: 1.2 times it was found.
     #[test]
     fn ver_the_error_is_that_of_samples_that_are_read_off() {
         let question = question();
@@ -421,7 +422,8 @@ mod tests {
         };
         let all: Vec<f64> = (0..sampling.total()).map(|number| of(&smooth, number)).collect();
         let deviation = standard_deviation(&all).unwrap();
-        for seed in 1..=5 {
+        let mut ratios = Vec::new();
+        for seed in 1..=24 {
             let mut scattered = smooth.clone();
             let mut random = fastrand::Rng::with_seed(seed);
             for pair in pairs() {
@@ -431,15 +433,18 @@ mod tests {
                     ran.outputs[0].value = ran.outputs[0].value.map(|value| value + beside);
                 }
             }
-            let surfaces = fit(&sampling, 64, &scattered).unwrap();
+            let surfaces = fit(&sampling, 32, &scattered).unwrap();
             let missed: Vec<f64> = (0..sampling.total())
                 .filter(|number| !surfaces.run.contains(number))
                 .map(|number| surfaces.read_off(number).unwrap().outputs[0].value.unwrap() - of(&scattered, number))
                 .collect();
             let missed = (missed.iter().map(|error| error * error).sum::<f64>() / missed.len() as f64).sqrt();
             let said = surfaces.errors()[0].unwrap() * deviation;
-            assert!((0.8..1.25).contains(&(missed / said)), "seed {seed}: {missed} for {said}");
+            assert!((0.7..1.6).contains(&(missed / said)), "seed {seed}: {missed} for {said}");
+            ratios.push(missed / said);
         }
+        let ratio = ratios.iter().sum::<f64>() / ratios.len() as f64;
+        assert!((0.9..1.3).contains(&ratio), "{ratio}: {ratios:?}");
     }
 
     /// What does not follow the keys smoothly is not read off, nor is what some samples do not have, nor what too few runs are known of.
