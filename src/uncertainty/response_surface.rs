@@ -15,7 +15,7 @@ use std::collections::BTreeSet;
 
 use nalgebra::DMatrix;
 
-use super::distribution::Distribution;
+use super::distribution::{Distribution, Uncertain};
 use super::kept::{Ran, ReadOutput};
 use super::sampling::Sampling;
 use crate::scene::opened::EachMesh;
@@ -24,7 +24,7 @@ use gearwear_bodies::reference::response_surface::ResponseSurface;
 use gearwear_bodies::reference::statistics::standard_deviation;
 
 /// Fewest runs that a surface is fitted to.
-pub(super) const FEWEST_RUNS: usize = 64;
+const FEWEST_RUNS: usize = 64;
 /// Greatest root mean square error, over the standard deviation.
 const GREATEST_ERROR: f64 = 0.05;
 /// Greatest degree.
@@ -45,8 +45,10 @@ const ROUND_OFF: f64 = 1e-9;
 /// Surfaces of the samples.
 pub(super) struct SampleSurfaces<'a> {
     sampling: &'a Sampling<'a>,
+    /// Of all samples.
+    variables: &'a [Vec<f64>],
     /// Samples that are run.
-    pub run: BTreeSet<usize>,
+    run: BTreeSet<usize>,
     /// A run as its figures are ordered.
     like: Ran,
     figures: Surface,
@@ -72,14 +74,6 @@ enum Misfit {
     Missed { column: usize, error: f64 },
 }
 
-impl Surface {
-    /// Greatest error, and the column that has it.
-    fn greatest_error(&self) -> (f64, usize) {
-        let errors = self.errors.iter().copied().zip(0..);
-        errors.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default()
-    }
-}
-
 impl Misfit {
     /// The reason in words; `name` is that of a column.
     fn of<'n>(&self, name: impl Fn(usize) -> &'n str) -> String {
@@ -95,21 +89,33 @@ impl Misfit {
     }
 }
 
-/// Samples, in groups that share a run, of which the first are run.
-struct Fitted<'a> {
-    sampling: &'a Sampling<'a>,
-    groups: &'a [Vec<usize>],
+/// Samples, in groups that share a run, of which some are run.
+struct Groups<'a> {
+    all: &'a [Vec<usize>],
+    /// Of all samples.
+    variables: &'a [Vec<f64>],
     /// Groups that are run, by their index.
     run: &'a BTreeSet<usize>,
 }
 
+/// A sample that surfaces are fitted to.
+struct FittedSample {
+    /// Index of its group.
+    group: usize,
+    number: usize,
+    /// By column.
+    values: Vec<f64>,
+}
+
 impl<'a> SampleSurfaces<'a> {
-    /// Surfaces fitted to the samples A and B of the first `points` and those that share runs with them, of which `ran` is all that is kept.
+    /// Surfaces fitted to the samples A and B of the first `points` and those that share runs with them, of which `ran` is all that is kept. `variables` are those
+    /// of all samples.
     ///
     /// # Errors
     /// Why samples cannot be read off.
     pub(super) fn fit<'r>(
         sampling: &'a Sampling<'a>,
+        variables: &'a [Vec<f64>],
         groups: &[Vec<usize>],
         points: usize,
         ran: impl Fn(usize) -> Option<&'r Result<Ran, String>>,
@@ -117,28 +123,31 @@ impl<'a> SampleSurfaces<'a> {
         let is_first = |group: &Vec<usize>| group.iter().any(|&number| sampling.is_independent(number, points));
         let first: BTreeSet<usize> = (0..groups.len()).filter(|&group| is_first(&groups[group])).collect();
         if first.len() < FEWEST_RUNS {
-            return Err(format!("the samples take fewer than {FEWEST_RUNS} runs"));
+            return Err(too_few());
         }
-        let numbers: Vec<usize> = first.iter().flat_map(|&group| groups[group].iter().copied()).collect();
-        let of_numbers: Option<Vec<&Ran>> = numbers.iter().map(|&number| ran(number)?.as_ref().ok()).collect();
-        let of_numbers = of_numbers.ok_or("some samples failed")?;
-        let like = of_numbers[0].clone();
-        let fitted = Fitted { sampling, groups, run: &first };
-        let of_figures = of_numbers.iter().map(|ran| figures(ran, &like)).collect::<Option<Vec<Vec<f64>>>>();
-        let of_figures = of_figures.ok_or("some samples have figures that others do not have")?;
-        let figures = fitted
-            .surface(&numbers, &of_figures, |_| true, deviations, AS_GOOD)
+        // A group of points may go on beyond the last one asked for.
+        let of_group = |&group: &usize| groups[group].iter().map(move |&number| (group, number));
+        let numbers = first.iter().flat_map(of_group).filter(|(_, number)| *number < variables.len());
+        let kept: Option<Vec<(usize, usize, &Ran)>> =
+            numbers.map(|(group, number)| Some((group, number, ran(number)?.as_ref().ok()?))).collect();
+        let kept = kept.ok_or("some samples failed")?;
+        let like = kept[0].2.clone();
+        let groups_run = Groups { all: groups, variables, run: &first };
+        let with_figures =
+            kept.iter().map(|&(group, number, ran)| Some(FittedSample { group, number, values: figures(ran, &like)? }));
+        let with_figures: Option<Vec<FittedSample>> = with_figures.collect();
+        let with_figures = with_figures.ok_or("some samples have figures that others do not have")?;
+        let figures = groups_run
+            .surface(&with_figures, |_| true, deviations, AS_GOOD)
             .map_err(|misfit| misfit.of(|column| name(sampling, &like, column)))?;
-        let (worn, wear): (Vec<usize>, Vec<Vec<f64>>) = numbers
-            .iter()
-            .zip(&of_numbers)
-            .filter_map(|(&number, ran)| Some((number, columns_of(ran.wear_um.as_ref()?))))
-            .unzip();
+        let with_wear = kept.iter().filter_map(|&(group, number, ran)| {
+            Some(FittedSample { group, number, values: columns_of(ran.wear_um.as_ref()?) })
+        });
+        let with_wear: Vec<FittedSample> = with_wear.collect();
         let flanks = flanks_of(like.wear_um.as_ref());
-        let wear = fitted
+        let wear = groups_run
             .surface(
-                &worn,
-                &wear,
+                &with_wear,
                 |number| sampling.is_independent(number, usize::MAX),
                 |values| greatest_by_flank(deviations(values), &flanks),
                 f64::INFINITY,
@@ -146,17 +155,22 @@ impl<'a> SampleSurfaces<'a> {
             .map_err(|misfit| misfit.of(|_| "the wear over the flanks"))?;
         let run: BTreeSet<usize> = first.iter().chain(&figures.beyond).chain(&wear.beyond).copied().collect();
         let run: BTreeSet<usize> = run.into_iter().flat_map(|group| groups[group].iter().copied()).collect();
-        if (0..sampling.total()).all(|number| run.contains(&number)) {
+        if (0..variables.len()).all(|number| run.contains(&number)) {
             return Err("no sample is left that would not be run".to_owned());
         }
-        Ok(Self { sampling, run, like, figures, wear })
+        Ok(Self { sampling, variables, run, like, figures, wear })
+    }
+
+    /// Whether a sample is read off, and not run.
+    pub(super) fn reads_off(&self, number: usize) -> bool {
+        !self.run.contains(&number)
     }
 
     /// A sample that is read off.
     pub(super) fn read_off(&self, number: usize) -> Result<Ran, String> {
-        let place = place(self.sampling, number);
+        let place = &self.variables[number];
         let no_number = || "the response surface has no value".to_owned();
-        let mut values = self.figures.surface.at(&place, &self.figures.values).ok_or_else(no_number)?.into_iter();
+        let mut values = self.figures.surface.at(place, &self.figures.values).ok_or_else(no_number)?.into_iter();
         let mut next = || values.next().unwrap_or(f64::NAN);
         let outputs =
             self.like.outputs.iter().map(|output| ReadOutput { value: output.value.map(|_| next()), ..*output });
@@ -167,7 +181,7 @@ impl<'a> SampleSurfaces<'a> {
         let wear_um = match self.like.wear_um.as_ref().filter(|_| is_worn) {
             None => None,
             Some(like) => {
-                let worn = self.wear.surface.at(&place, &self.wear.values).ok_or_else(no_number)?;
+                let worn = self.wear.surface.at(place, &self.wear.values).ok_or_else(no_number)?;
                 let mut worn = worn.into_iter().map(|value| value as f32);
                 Some(like.as_ref().map(|of| of.as_ref().map(|flank| worn.by_ref().take(flank.len()).collect())))
             }
@@ -190,57 +204,61 @@ impl<'a> SampleSurfaces<'a> {
     }
 }
 
-impl Fitted<'_> {
-    /// Surface of the samples `numbers` with their `columns`, for those of all samples that `are_asked`; of the degrees for which few enough are beyond it, and whose
-    /// error is at most `as_good` times the least, that with the fewest beyond. `scales` are what errors of the columns are compared with.
+impl Groups<'_> {
+    /// Surface of the columns of `fitted`, group by group, for those of all samples that `are_asked`; of the degrees for which few enough are beyond it, and
+    /// whose error is at most `as_good` times the least, that with the fewest beyond. `scales` are what errors of the columns are compared with.
     fn surface(
         &self,
-        numbers: &[usize],
-        columns: &[Vec<f64>],
+        fitted: &[FittedSample],
         are_asked: impl Fn(usize) -> bool,
         scales: impl Fn(&DMatrix<f64>) -> Vec<f64>,
         as_good: f64,
     ) -> Result<Surface, Misfit> {
-        let width = columns.first().map_or(0, Vec::len);
-        let values = DMatrix::from_fn(columns.len(), width, |row, column| columns[row][column]);
+        let width = fitted.first().map_or(0, |sample| sample.values.len());
+        let values = DMatrix::from_fn(fitted.len(), width, |row, column| fitted[row].values[column]);
         let scales = scales(&values);
-        let places: Vec<Vec<f64>> = numbers.iter().map(|&number| place(self.sampling, number)).collect();
-        let rows = |group: &Vec<usize>| -> Vec<usize> {
-            (0..numbers.len()).filter(|&row| group.contains(&numbers[row])).collect()
-        };
-        let together: Vec<Vec<usize>> = self.run.iter().map(|&group| rows(&self.groups[group])).collect();
-        let others = (0..self.groups.len()).filter(|group| !self.run.contains(group));
-        let others: Vec<(usize, Vec<Vec<f64>>)> = others
-            .map(|group| {
-                let asked =
-                    self.groups[group].iter().filter(|&&number| number < self.sampling.total() && are_asked(number));
-                (group, asked.map(|&number| place(self.sampling, number)).collect())
-            })
-            .collect();
-        let mut found: Vec<Surface> = Vec::new();
+        let places: Vec<Vec<f64>> = fitted.iter().map(|sample| self.variables[sample.number].clone()).collect();
+        let mut rows = 0..;
+        let by_group = fitted.chunk_by(|one, other| one.group == other.group);
+        let together: Vec<Vec<usize>> = by_group.map(|group| rows.by_ref().take(group.len()).collect()).collect();
+        let mut found: Vec<(ResponseSurface, Vec<f64>, BTreeSet<usize>)> = Vec::new();
         for degree in 1..=MOST_DEGREE {
             let Some(surface) = ResponseSurface::new(&places, degree) else { break };
             if SAMPLES_PER_TERM * surface.terms() > places.len() {
                 break;
             }
-            let beyond: BTreeSet<usize> = others
-                .iter()
-                .filter(|(_, places)| places.iter().any(|place| surface.leverage(place) > GREATEST_LEVERAGE))
-                .map(|(group, _)| *group)
-                .collect();
             let Some(errors) = errors(&surface, &together, &values, &scales) else { break };
+            let is_beyond = |&number: &usize| {
+                let variables = self.variables.get(number).filter(|_| are_asked(number));
+                variables.is_some_and(|variables| surface.leverage(variables) > GREATEST_LEVERAGE)
+            };
+            let others = (0..self.all.len()).filter(|group| !self.run.contains(group));
+            let beyond: BTreeSet<usize> = others.filter(|&group| self.all[group].iter().any(is_beyond)).collect();
             if beyond.len() <= MOST_FURTHER * self.run.len() {
-                found.push(Surface { surface, values: values.clone(), errors, beyond });
+                found.push((surface, errors, beyond));
             }
         }
-        let greatest: Vec<(f64, usize)> = found.iter().map(Surface::greatest_error).collect();
-        let Some(&(least, column)) = greatest.iter().min_by(|a, b| a.0.total_cmp(&b.0)) else {
+        let greatest = found.iter().map(|(_, errors, _)| greatest_of(errors));
+        let Some((least, column)) = greatest.min_by(|one, other| one.0.total_cmp(&other.0)) else {
             return Err(Misfit::Beyond);
         };
         let good_enough = GREATEST_ERROR.min(NEGLIGIBLE_ERROR.max(as_good * least));
-        let good = found.into_iter().filter(|surface| surface.greatest_error().0 <= good_enough);
-        good.min_by_key(|surface| surface.beyond.len()).ok_or(Misfit::Missed { column, error: least })
+        let good = found.into_iter().filter(|(_, errors, _)| greatest_of(errors).0 <= good_enough);
+        let (surface, errors, beyond) =
+            good.min_by_key(|(_, _, beyond)| beyond.len()).ok_or(Misfit::Missed { column, error: least })?;
+        Ok(Surface { surface, values, errors, beyond })
     }
+}
+
+/// The greatest of the errors, and the column that has it.
+fn greatest_of(errors: &[f64]) -> (f64, usize) {
+    let errors = errors.iter().copied().zip(0..);
+    errors.max_by(|one, other| one.0.total_cmp(&other.0)).unwrap_or_default()
+}
+
+/// Why few runs have no surface.
+pub(super) fn too_few() -> String {
+    format!("the samples take fewer than {FEWEST_RUNS} runs")
 }
 
 /// Root mean square of what samples are missed by without those that share their run, over `scales`, of each column.
@@ -260,14 +278,14 @@ fn errors(
     (!inside.is_empty()).then(|| of_columns.collect())
 }
 
-/// Variables of a sample.
-fn place(sampling: &Sampling<'_>, number: usize) -> Vec<f64> {
-    let keys = sampling.question.uncertain.iter().zip(sampling.values(number));
-    keys.map(|(one, value)| match one.distribution {
+/// Variables of all samples.
+pub(super) fn variables(sampling: &Sampling<'_>) -> Vec<Vec<f64>> {
+    let variable = |(one, value): (&Uncertain, f64)| match one.distribution {
         Distribution::Lognormal { .. } => value.ln(),
         Distribution::Normal { .. } | Distribution::Uniform { .. } | Distribution::Triangular { .. } => value,
-    })
-    .collect()
+    };
+    let of_sample = |number| sampling.question.uncertain.iter().zip(sampling.values(number)).map(variable).collect();
+    (0..sampling.total()).map(of_sample).collect()
 }
 
 /// Figures of a run in a row, of one that has the same as another.
@@ -369,11 +387,11 @@ mod tests {
     }
 
     fn fit<'a>(
-        sampling: &'a Sampling<'a>,
+        (sampling, variables): (&'a Sampling<'a>, &'a [Vec<f64>]),
         points: usize,
         runs: &BTreeMap<usize, Result<Ran, String>>,
     ) -> Result<SampleSurfaces<'a>, String> {
-        SampleSurfaces::fit(sampling, &pairs(), points, |number| runs.get(&number))
+        SampleSurfaces::fit(sampling, variables, &pairs(), points, |number| runs.get(&number))
     }
 
     /// Wear that goes as a power of coefficient and load.
@@ -386,12 +404,13 @@ mod tests {
     fn ver_smooth_figures_are_read_off() {
         let question = question();
         let sampling = Sampling::of(&question);
+        let variables = variables(&sampling);
         let runs = runs(&sampling, wear);
-        let surfaces = fit(&sampling, 32, &runs).unwrap();
+        let surfaces = fit((&sampling, &variables), 32, &runs).unwrap();
         assert!((128..512).contains(&surfaces.run.len()), "{} of 1024 are run", surfaces.run.len());
         assert!((0..4 * 32).all(|number| surfaces.run.contains(&number)));
         let (mut missed, mut missed_values) = (Vec::new(), Vec::new());
-        for number in (0..sampling.total()).filter(|number| !surfaces.run.contains(number)) {
+        for number in (0..sampling.total()).filter(|&number| surfaces.reads_off(number)) {
             let (found, run) = (surfaces.read_off(number).unwrap(), runs[&number].as_ref().unwrap());
             let [value, expected] = [&found, run].map(|ran| ran.outputs[0].value.unwrap());
             assert!((value / expected - 1.0).abs() < 0.03, "{number}: {value} for {expected}");
@@ -416,6 +435,7 @@ mod tests {
     fn ver_the_error_is_that_of_samples_that_are_read_off() {
         let question = question();
         let sampling = Sampling::of(&question);
+        let variables = variables(&sampling);
         let smooth = runs(&sampling, wear);
         let of = |runs: &BTreeMap<usize, Result<Ran, String>>, number: usize| {
             runs[&number].as_ref().unwrap().outputs[0].value.unwrap()
@@ -433,9 +453,9 @@ mod tests {
                     ran.outputs[0].value = ran.outputs[0].value.map(|value| value + beside);
                 }
             }
-            let surfaces = fit(&sampling, 32, &scattered).unwrap();
+            let surfaces = fit((&sampling, &variables), 32, &scattered).unwrap();
             let missed: Vec<f64> = (0..sampling.total())
-                .filter(|number| !surfaces.run.contains(number))
+                .filter(|&number| surfaces.reads_off(number))
                 .map(|number| surfaces.read_off(number).unwrap().outputs[0].value.unwrap() - of(&scattered, number))
                 .collect();
             let missed = (missed.iter().map(|error| error * error).sum::<f64>() / missed.len() as f64).sqrt();
@@ -452,8 +472,9 @@ mod tests {
     fn other_figures_are_run() {
         let question = question();
         let sampling = Sampling::of(&question);
+        let variables = variables(&sampling);
         let because = |runs: &BTreeMap<usize, Result<Ran, String>>, points: usize| {
-            fit(&sampling, points, runs).err().unwrap_or_default()
+            fit((&sampling, &variables), points, runs).err().unwrap_or_default()
         };
         let jumps = runs(&sampling, |at| wear(at) + if at[1] > 1.02 { 3.0 } else { 0.0 });
         assert!(because(&jumps, 64).contains("misses pinion.peak_wear_um of samples that are left out by"));

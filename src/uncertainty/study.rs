@@ -21,7 +21,7 @@ use super::kept::{KeptRun, Ran, SampledStudy};
 use super::record::{
     FactorIndices, MODEL_ERROR, OutputRecord, Quantiles, ReadOffSamples, SampleRow, UncertaintyRecord,
 };
-use super::response_surface::SampleSurfaces;
+use super::response_surface::{self, SampleSurfaces};
 use super::sampled_run::{FEWEST_SAMPLES, SampledQuestion, UncertaintyStudyError, outputs_of, run_of};
 use super::sampling::{INDEPENDENT, Sampling};
 use super::shared_runs;
@@ -65,8 +65,8 @@ impl Samples<'_> {
         self.bounds.iter().any(Option::is_some)
     }
 
-    /// Runs of `groups`, which share a run each, those with any of the samples `now` that the journal does not have. `in_all` are the samples that are to be
-    /// run, as far as that is known.
+    /// Runs of `groups`, which share a run each, those with any of the samples `now` of which the journal does not have all. `in_all` are the samples that are to
+    /// be run, as far as that is known.
     fn run_groups(
         &self,
         groups: &[Vec<usize>],
@@ -78,7 +78,10 @@ impl Samples<'_> {
         let rows = &journal.contents.rows;
         let asked: BTreeSet<usize> = (0..self.sampling.total()).filter(|&number| in_all(number)).collect();
         let mut left: BTreeSet<usize> = asked.iter().copied().filter(|number| !rows.contains_key(number)).collect();
-        let is_asked = |group: &&Vec<usize>| group.iter().any(|&number| now(number) && left.contains(&number));
+        // A journal that ended within a group has some of its samples, and a response surface is fitted to all of them.
+        let is_asked = |group: &&Vec<usize>| {
+            group.iter().any(|&number| now(number)) && group.iter().any(|number| left.contains(number))
+        };
         let tasks: Vec<&Vec<usize>> = groups.iter().filter(is_asked).collect();
         let has_failed = |row: &KeptRun| row.ran.is_err() && asked.contains(&row.number);
         let mut failed: BTreeSet<usize> = rows.values().filter(|row| has_failed(row)).map(|row| row.number).collect();
@@ -320,7 +323,7 @@ impl<'a> PreparedStudy<'a> {
         // Of each point A and B at least, from the first on.
         let finished = |journal: &Journal<SampledStudy>, most: usize, surfaces: Surfaces<'_, '_>| -> Vec<Vec<Row>> {
             let row = |number: usize| match surfaces {
-                Ok(surfaces) if !surfaces.run.contains(&number) => Some(surfaces.read_off(number)),
+                Ok(surfaces) if surfaces.reads_off(number) => Some(surfaces.read_off(number)),
                 _ => journal.contents.rows.get(&number).map(|kept| kept.ran.clone()),
             };
             let of_point = |point: usize| sampling.of_point(point).map_while(row).collect::<Vec<Row>>();
@@ -333,8 +336,11 @@ impl<'a> PreparedStudy<'a> {
             Ok(UncertaintyRecord { surface, threads, wall_s: begun.elapsed().as_secs_f64(), ..record })
         };
         // Quantiles first, of twice as many points each time; what Sobol indices need besides comes last. A response surface ends both.
-        let because = if question.run_all { "all samples are asked to be run" } else { "the study goes on" };
-        let mut surfaces = Err(because.to_owned());
+        let (variables, because) = match question.run_all {
+            true => (Vec::new(), "all samples are asked to be run".to_owned()),
+            false => (response_surface::variables(&sampling), response_surface::too_few()),
+        };
+        let mut surfaces = Err(because);
         let before = finished(journal, question.samples, surfaces.as_ref()).len();
         let doubled = std::iter::successors(Some(FEWEST_SAMPLES), |points| points.checked_mul(2));
         let stages = doubled.take_while(|points| *points < question.samples).chain([question.samples]);
@@ -351,14 +357,14 @@ impl<'a> PreparedStudy<'a> {
             }
             if !question.run_all {
                 let rows = &journal.contents.rows;
-                surfaces = SampleSurfaces::fit(&sampling, &groups, points, |number| Some(&rows.get(&number)?.ran));
+                let ran = |number: usize| Some(&rows.get(&number)?.ran);
+                surfaces = SampleSurfaces::fit(&sampling, &variables, &groups, points, ran);
             }
             if surfaces.is_ok() {
                 break;
             }
         }
-        let is_run = |number: usize| surfaces.as_ref().is_ok_and(|surfaces| surfaces.run.contains(&number));
-        let is_run = |number: usize| surfaces.is_err() || is_run(number);
+        let is_run = |number: usize| !is_read_off(surfaces.as_ref(), number);
         samples.run_groups(&groups, (is_run, is_run), journal, threads, observer)?;
         let whole = finished(journal, question.samples, surfaces.as_ref());
         if whole.len() < question.samples.min(FEWEST_SAMPLES) {
@@ -370,6 +376,10 @@ impl<'a> PreparedStudy<'a> {
 
 /// Surfaces that samples are read off, or why there are none.
 type Surfaces<'s, 'q> = Result<&'s SampleSurfaces<'q>, &'s String>;
+
+fn is_read_off(surfaces: Surfaces<'_, '_>, number: usize) -> bool {
+    surfaces.is_ok_and(|surfaces| surfaces.reads_off(number))
+}
 
 fn record(
     scene: &OpenedScene,
@@ -385,10 +395,9 @@ fn record(
         return Err(UncertaintyStudyError::AllFailed { runs, first: first.clone() });
     }
     let figures = question.outputs.len() + question.limits.len();
-    let is_read_off = |number: usize| surfaces.is_ok_and(|surfaces| !surfaces.run.contains(&number));
     let numbered = rows.iter().enumerate().flat_map(|(point, rows)| samples.sampling.of_point(point).zip(*rows));
     let of_samples: Vec<SampleRow> =
-        numbered.map(|(number, row)| samples.row(number, row, is_read_off(number))).collect();
+        numbered.map(|(number, row)| samples.row(number, row, is_read_off(surfaces, number))).collect();
     let errors = surfaces.map(SampleSurfaces::errors).unwrap_or_default();
     let output = |figure: usize| OutputRecord {
         response_surface_error: errors.get(figure).copied().flatten(),

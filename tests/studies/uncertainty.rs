@@ -205,6 +205,34 @@ fn most_samples_are_read_off_a_response_surface() {
     assert!(missed < 1.5 * said, "{missed} for {said}");
 }
 
+/// A journal that ends within samples that share a run has them run again before a surface is fitted: the study ends with the same bytes. What takes few
+/// runs says so.
+#[test]
+fn a_surface_is_the_same_after_a_break_within_a_run() {
+    let bench = Bench::new();
+    let scene = coarse_scene().replace("step = { revolutions = 200000.0 }", "step = \"adaptive\"");
+    fs::write(bench.out("scene.toml"), scene).unwrap();
+    let samples = ["--samples", "128", "--threads", "1"];
+    done(&bench.study("whole", &[K, TORQUE], &samples));
+    let journal = fs::read_to_string(bench.out("whole").join("rows.jsonl")).unwrap();
+    // Of samples in pairs an odd number.
+    let half: Vec<&str> = journal.lines().take(1 + 83).collect();
+    fs::create_dir(bench.out("again")).unwrap();
+    fs::write(bench.out("again").join("rows.jsonl"), half.join("\n") + "\n").unwrap();
+    done(&bench.study("again", &[K, TORQUE], &samples));
+    let [whole, again] = ["whole", "again"].map(|name| timeless(&bench.out(name)));
+    assert!(whole["response_surface"]["run"].as_u64().unwrap() < 256, "{}", whole["response_surface"]);
+    assert_eq!(again["response_surface"], whole["response_surface"]);
+    assert_eq!(again, whole);
+    let table = |name: &str| fs::read(bench.out(name).join("samples.csv")).unwrap();
+    assert_eq!(table("again"), table("whole"));
+
+    let correlation = "operation.pinion_torque_Nm:wear.coefficient_m2_per_N=0.8";
+    done(&bench.study("few", &[K, TORQUE], &["--samples", "8", "--correlation", correlation]));
+    let because = &timeless(&bench.out("few"))["no_response_surface_because"];
+    assert!(because.as_str().unwrap().contains("fewer than 64 runs"), "{because}");
+}
+
 /// Wear within the first steps is proportional to k, so that its quantiles are those of k, and k alone explains all of it. The median of
 /// a lognormal k is the scene's own value.
 #[test]

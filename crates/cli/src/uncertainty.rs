@@ -41,10 +41,10 @@ pub(super) struct UncertaintyArgs {
     #[arg(long, value_name = "DIR", conflicts_with = "out")]
     resume: Option<PathBuf>,
     /// Points of the Sobol sequence, best a power of two; each takes two runs and one more for every uncertain key
-    #[arg(long, value_name = "N", default_value_t = 512)]
+    #[arg(long, value_name = "N", default_value_t = UncertaintyQuestion::default().samples)]
     samples: usize,
     /// Another seed scrambles the sequence in another way
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = UncertaintyQuestion::default().seed)]
     seed: u32,
     /// Figures to keep, as paths in summary.json, separated by commas; default: greatest wear and tip-edge wear of both gears, transmission
     /// error peak to peak, worn

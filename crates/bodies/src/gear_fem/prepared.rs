@@ -196,6 +196,8 @@ impl<'a> CondensedPair<'a> {
         if prepared.windows > 1 {
             let SearchWindow { beside, line_load_n_per_mm, .. } = prepared.window;
             let first = self.unworn(prepared.position_mm, self.first_window(beside, line_load_n_per_mm));
+            // One at most, however often this is done.
+            prepared.wider = None;
             prepared.wider = Some(Box::new(std::mem::replace(prepared, first)));
         }
     }
@@ -356,4 +358,39 @@ fn carried_over(before: &[FacingTeeth], active: &[bool], after: &[FacingTeeth]) 
         })
     });
     was_active.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tilted::tests::{condensed_fzg_a, fzg_a};
+    use super::*;
+
+    /// Flanks with a flat bottom, which touch as far as that goes, are found in wider windows, after any number of resets with the same bits as on a new position;
+    /// no more than one wider window is kept.
+    #[test]
+    fn resets_keep_one_wider_window() {
+        let pair = fzg_a();
+        let model = condensed_fzg_a(&pair);
+        let new = || model.prepare(pair.path.pitch_point_mm, 300.0);
+        let deepest_mm = new().unworn_gap_mm.iter().copied().fold(0.0, f64::max);
+        let solve = |prepared: &mut PreparedPosition, bottom_mm: f64| {
+            let mut flat = |_: &PreparedPosition, gap_mm: &mut [f64]| {
+                gap_mm.iter_mut().for_each(|gap_mm| *gap_mm = gap_mm.max(bottom_mm));
+            };
+            let found = model.solve(prepared, &mut flat, &|_, _| bottom_mm).expect("the position has an equilibrium");
+            (found.force, prepared.window.half_widths)
+        };
+        let mut prepared = new();
+        let mut widths = Vec::new();
+        for bottom in [0.9, 4.0, 0.9, 2.0, 4.0, 2.0, 0.9] {
+            let bottom_mm = bottom * deepest_mm;
+            let found = solve(&mut prepared, bottom_mm);
+            assert_eq!(found, solve(&mut new(), bottom_mm), "{bottom}");
+            widths.push(found.1);
+            model.reset(&mut prepared);
+            let kept = std::iter::successors(prepared.wider.as_deref(), |wider| wider.wider.as_deref()).count();
+            assert_eq!((prepared.windows, kept), (1, 1), "{bottom}");
+        }
+        assert!(widths[1] > widths[0], "{widths:?}");
+    }
 }
