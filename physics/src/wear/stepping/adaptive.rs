@@ -4,14 +4,14 @@
 //! length over which pressures are averaged), stays below
 //!
 //! ```text
-//! min(tolerance, max(0.3 · tolerance, 2 % of the greatest wear)) · max(1, greatest wear / 0.05 mm)
+//! min(T, max(0.3 T, 2 % of the greatest wear))          T = tolerance · max(1, greatest wear / 0.05 mm)
 //! ```
 //!
 //! What was estimated is worn down by later steps but for its mean over a contact, and is most of all that a worn zone grows by a place: of 72 random
 //! scenes without severe wear the error at the end of the run is 0.05 of the tolerance in the median, in 95 % of them at most 0.5 of it; beyond that at
-//! cliffs of the wear, whatever the tolerance. Steps of steep rates, as with a limit of severe
-//! wear, may spend 0.3 of it whatever the wear: waves that they leave are worn severely. The error at the end is 0.07 of the tolerance in the
-//! geometric mean of 20 random scenes with severe wear, and 1.4 of it at most (wear of eleven tolerances, soft wheel, abrupt limit).
+//! cliffs of the wear, whatever the tolerance. Steps of steep rates, as with a limit of severe wear, may spend 0.3 T whatever the wear: waves that they
+//! leave are worn severely. The error at the end is 0.07 of the tolerance in the geometric mean of 20 random scenes with severe wear, and 1.4 of it at most
+//! (wear of eleven tolerances, soft wheel, abrupt limit).
 //!
 //! What is estimated, where the change of the mean rate bounds it with the sign of what it bounds, is kept with its sign
 //! ([`Adaptive::accumulated_error`]), so that a run can say in the end what it came to.
@@ -30,7 +30,7 @@ use super::{
     step_control::{StepControl, StepVerdict},
 };
 
-/// What steps of smooth rates spend and aim at.
+/// What steps of smooth rates spend, aim at and probe.
 const OF_SMOOTH_RATES: Aim = Aim { least_share: 0.3, most_share: 1.0, safety: 0.8, probe: 0.1 };
 /// What steps of steep rates do. Waves lower than the probe are not damped where rates jump: with 0.1 severe wear of eleven tolerances is a third too deep, with
 /// 0.01 a tenth at most, for as many evaluations on average. Smooth rates take half as many stages again with 0.01 on tip edges that are all but sharp.
@@ -54,7 +54,7 @@ const LIKE_BEFORE: f64 = 2.0;
 /// Steps without a rate at their end are repeated with this part of their length.
 const SHORTER: f64 = 0.25;
 
-/// What the steps of a rate spend and aim at.
+/// What the steps of a rate spend, aim at and probe.
 #[derive(Debug, Clone, Copy)]
 struct Aim {
     /// Part of the tolerance that any step may spend.
