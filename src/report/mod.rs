@@ -51,10 +51,18 @@ use self::files::{place, remove, write_json};
 use gearwear_bodies::gear::Gear;
 use gearwear_physics::results::run::RunRecord;
 
-/// Writes all files of `record` but the page and `summary.json` into `dir`, which is made if need be; returns their paths in the order
-/// written. The file that only a pair with slices has is taken away where `record` has none.
+/// Writes all files of `record` but the page and `summary.json` into `dir`, which is made if need be; returns their paths. The file that only a pair with slices has is taken away where `record` has none.
 pub fn write_data(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     create_folder(dir)?;
+    let flank = || place(dir, output_files::FLANK, |out| flank_mesh::write(out, record));
+    let (paths, flank) = rayon::join(|| write_tables(record, dir), flank);
+    let mut paths = paths?;
+    paths.push(flank?);
+    Ok(paths)
+}
+
+/// Writes the scene, the tables, and what their columns hold.
+fn write_tables(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
     let mut csv = CsvFiles::new(dir, provenance);
     let flank = |gear: Gear| move |out: &mut dyn Write| table(out, tables::flank(&record.flanks[gear]));
@@ -83,7 +91,6 @@ pub fn write_data(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, Report
         false => paths.push(csv.place(output_files::TORQUE_CURVE, |out| table(out, &record.torque_curve))?),
         true => remove(dir, output_files::TORQUE_CURVE)?,
     }
-    paths.push(place(dir, output_files::FLANK, |out| flank_mesh::write(out, record))?);
     paths.push(csv.finish()?);
     Ok(paths)
 }
@@ -110,11 +117,13 @@ impl Default for RunFiles {
 
 /// Writes all of `record` but its summary and the record itself into `dir`; of `files` those that are not asked for are taken away there.
 pub fn write_files(record: &RunRecord, files: &RunFiles, dir: &Path) -> Result<(), ReportError> {
-    write_data(record, dir)?;
-    match files.page {
+    create_folder(dir)?;
+    let page = || match files.page {
         true => write_page(record, dir).map(drop),
         false => remove_page(dir),
-    }?;
+    };
+    let (data, page) = rayon::join(|| write_data(record, dir), page);
+    data.and(page)?;
     match files.series {
         true => write_series(record, dir).map(drop),
         false => remove_series(dir),

@@ -354,6 +354,28 @@ fn ver_waves_of_steps_do_not_wear_severely() {
     assert!(usual.work.mesh_cycles < 40, "{:?}", usual.work);
 }
 
+/// A limit of severe wear far above every pressure changes neither a bit of the wear nor a step, with slices and without; one within reach takes shorter steps.
+#[test]
+fn ver_a_limit_out_of_reach_costs_nothing() {
+    let run_with = |pair: &str, severe: &str| {
+        run(&format!(
+            "[pair]\npreset = \"{pair}\"\n[operation]\npinion_torque_Nm = 302.0\npinion_speed_rpm = 100.0\npinion_revolutions = 2e5\n\
+             [contact]\nsurface = \"half-space\"\n[wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n{severe}\n\
+             [numerics]\nverify = false\nerror_estimate = false\nflank_points = 300\npositions = 60\n"
+        ))
+    };
+    for pair in ["fzg-c", "helical"] {
+        let severe = |above: &str| format!("severe = {{ above_MPa = {above}, factor = 100.0, band_MPa = 0.0 }}");
+        let mild = run_with(pair, "");
+        let far = run_with(pair, &severe("1e5"));
+        assert_eq!(far.work, mild.work, "{pair}");
+        assert_eq!(far.pinion.worn_volume_mm3, mild.pinion.worn_volume_mm3, "{pair}");
+        let near = run_with(pair, &severe("1e4"));
+        println!("{pair}: {} mesh cycles, {} with a limit that tip edges come near", mild.work.mesh_cycles, near.work.mesh_cycles);
+        assert!(near.work.mesh_cycles >= mild.work.mesh_cycles, "{pair}: {:?}", near.work);
+    }
+}
+
 /// Where the contact is too narrow to be meshed, or teeth cannot be had in space, the run has its result, and says why nothing vouches for it.
 #[test]
 fn what_finite_elements_cannot_vouch_for_is_said() {

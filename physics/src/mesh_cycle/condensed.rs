@@ -23,7 +23,7 @@ use self::wearing_elements::IdlePositions;
 use super::collected::Collected;
 use super::condensed_contact::{CondensedContactPlace, HeatedContactRows, equivalent_half_width_mm};
 use super::load_sharing::EquilibriumError;
-use super::{CycleObservation, FlankOverlap, LostMaterial, MeshCycle, Work, kept_wear_to_mpa};
+use super::{CycleObservation, FlankOverlap, LostMaterial, MeshCycle, Work, is_exceeded, kept_wear_to_mpa};
 use crate::lubrication::running_pair::LoadedPlace;
 use crate::wear::{SlidingRow, WearModel};
 use gearwear_bodies::gear::{Gear, PerGear, flank_zones::FlankZones};
@@ -154,6 +154,11 @@ impl<'a> CondensedCycle<'a> {
     fn loaded_positions(&self) -> impl Iterator<Item = &CondensedPosition> {
         self.groups.iter().flat_map(|group| &group.loaded_positions)
     }
+
+    /// Of each position under load.
+    fn greatest_pressures_mpa(&self) -> impl Iterator<Item = f64> {
+        self.loaded_positions().map(CondensedPosition::greatest_pressure_mpa)
+    }
 }
 
 impl Drop for CondensedCycle<'_> {
@@ -181,9 +186,12 @@ impl MeshCycle for CondensedCycle<'_> {
         self.evaluate_by(|group, step| group.evaluate(step), lost, wear, depth_mm, stopped)
     }
 
+    fn may_wear_severely(&self, wear: &WearModel<'_>) -> bool {
+        is_exceeded(wear.out_of_reach_mpa(), self.greatest_pressures_mpa())
+    }
+
     fn begin_stages(&mut self, lost: LostMaterial<'_>, wear: &WearModel<'_>) {
-        let pressures_mpa = self.loaded_positions().map(CondensedPosition::greatest_pressure_mpa);
-        let mild_mpa = kept_wear_to_mpa(wear, pressures_mpa);
+        let mild_mpa = kept_wear_to_mpa(wear, self.greatest_pressures_mpa());
         self.some_keep_wear = mild_mpa.is_some();
         if let Some(mild_mpa) = mild_mpa {
             self.for_each_group(|group, step| group.keep_mild_wear(step, mild_mpa), lost, wear, &|| false);

@@ -7,7 +7,7 @@ use super::load_sharing::{EquilibriumError, MeshedPair, PairEquilibrium, balance
 use super::worn_points::{ContactOnPath, WornPoints};
 use super::{
     CycleObservation, FlankOverlap, GROUPS, GreatestPressure, LoadingPosition, LostMaterial, MeshCycle,
-    PositionObservation, Work, in_series, kept_wear_to_mpa, note_contact_of_points, note_figures, range_mm,
+    PositionObservation, Work, in_series, is_exceeded, kept_wear_to_mpa, note_contact_of_points, note_figures, range_mm,
 };
 use crate::contact::flank_pressure::PressureFigures;
 use crate::contact::{ContactSurface, Flanks, PositionCell, Sweep};
@@ -77,6 +77,11 @@ impl<'a> LineOfActionCycle<'a> {
     fn loaded_positions(&self) -> impl Iterator<Item = &LineOfActionPosition<'a>> {
         self.groups.iter().flat_map(|group| &group.loaded_positions)
     }
+
+    /// Of the reference pair at each position under load.
+    fn greatest_pressures_mpa(&self) -> impl Iterator<Item = f64> {
+        self.loaded_positions().map(|at| at.pairs[0].contact.footprint().peak_pressure_mpa)
+    }
 }
 
 impl MeshCycle for LineOfActionCycle<'_> {
@@ -92,9 +97,12 @@ impl MeshCycle for LineOfActionCycle<'_> {
         Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
     }
 
+    fn may_wear_severely(&self, wear: &WearModel<'_>) -> bool {
+        is_exceeded(wear.out_of_reach_mpa(), self.greatest_pressures_mpa())
+    }
+
     fn begin_stages(&mut self, lost: LostMaterial<'_>, wear: &WearModel<'_>) {
-        let pressures_mpa = self.loaded_positions().map(|at| at.pairs[0].contact.footprint().peak_pressure_mpa);
-        let mild_mpa = kept_wear_to_mpa(wear, pressures_mpa);
+        let mild_mpa = kept_wear_to_mpa(wear, self.greatest_pressures_mpa());
         self.some_keep_wear = mild_mpa.is_some();
         if let Some(mild_mpa) = mild_mpa {
             self.groups.par_iter_mut().for_each(|group| group.keep_mild_wear(lost, wear, mild_mpa));

@@ -236,6 +236,11 @@ pub trait MeshCycle {
         self.evaluate(lost, wear, depth_mm, stopped)
     }
 
+    /// Whether a contact of the last evaluation was so near to severe wear that it may come to it within a wear step; also where the cycle does not know.
+    fn may_wear_severely(&self, wear: &WearModel<'_>) -> bool {
+        wear.out_of_reach_mpa().is_some()
+    }
+
     /// Begins the stages of a wear step on flanks that have lost `lost`, after an evaluation on them. Where some positions wear severely, the others may
     /// keep their wear per mesh over the stages: that of mild wear hardly changes in a step that severe wear allows, and what it does change is found
     /// at the end of the step, and is in its error.
@@ -328,6 +333,11 @@ fn note_figures(flanks: Flanks<'_>, position_mm: f64, contact: &dyn PairContact,
     if let Some(parts) = flanks.parts {
         parts.note(&flanks.geometry, position_mm, &contact.pressed_cells(), figures);
     }
+}
+
+/// Whether any of these pressures is above the limit, where there is one.
+fn is_exceeded(limit_mpa: Option<f64>, mut pressures_mpa: impl Iterator<Item = f64>) -> bool {
+    limit_mpa.is_some_and(|limit_mpa| pressures_mpa.any(|at_mpa| at_mpa > limit_mpa))
 }
 
 /// Pressure up to which positions of these pressures keep their wear over the stages of a step, MPa; `None` where all under load are above it, and where

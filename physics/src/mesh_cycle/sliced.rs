@@ -26,7 +26,7 @@ use super::spring_along_path::SpringAlongPath;
 use super::worn_points::{ContactOnPath, WornPoints};
 use super::{
     CycleObservation, FlankOverlap, GROUPS, GreatestPressure, LostMaterial, MeshCycle, PositionObservation, Work,
-    in_series, note_contact_of_points, note_figures, range_mm,
+    in_series, is_exceeded, note_contact_of_points, note_figures, range_mm,
 };
 use crate::contact::flank_pressure::PressureFigures;
 use crate::contact::{ContactSurface, Flanks, Sweep};
@@ -180,6 +180,11 @@ impl MeshCycle for SlicedCycle<'_> {
             group.evaluate(lost, points, load, wear, stopped);
         });
         Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
+    }
+
+    fn may_wear_severely(&self, wear: &WearModel<'_>) -> bool {
+        let pairs = self.groups.iter().flat_map(|group| &group.loaded_positions).flat_map(|loaded| &loaded.pairs);
+        is_exceeded(wear.out_of_reach_mpa(), pairs.map(|pair| pair.contact.footprint().peak_pressure_mpa))
     }
 
     fn choose_part(&mut self) -> bool {

@@ -73,6 +73,11 @@ pub(crate) trait WearingPair {
         self.evaluate(wear, stopped)
     }
 
+    /// Whether wear may be severe within a step after the last evaluation ([`MeshCycle::may_wear_severely`]).
+    fn may_wear_severely(&self, wear: &WearModel<'_>) -> bool {
+        wear.out_of_reach_mpa().is_some()
+    }
+
     /// Begins the stages of a wear step after an evaluation on the same flanks ([`MeshCycle::begin_stages`]).
     fn begin_stages(&mut self, _wear: &WearModel<'_>) {}
 
@@ -230,6 +235,10 @@ impl WearingPair for OnFlankPlaces<'_> {
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
         self.cycle.evaluate_part(lost(&self.lost_mm), wear, &mut self.depth_mm, stopped)
+    }
+
+    fn may_wear_severely(&self, wear: &WearModel<'_>) -> bool {
+        self.cycle.may_wear_severely(wear)
     }
 
     fn begin_stages(&mut self, wear: &WearModel<'_>) {

@@ -195,9 +195,10 @@ impl AdaptiveSteps {
         self.slope.resize(self.state.len(), 0.0);
         rate.read_slope(&mut self.depth_mm, &mut self.slope);
         rate.pair.begin_stages(rate.wear);
+        let is_steep = rate.pair.may_wear_severely(rate.wear);
         let clean_start = interval.clean_start;
         let (wear_mm, depth_mm) = (&mut self.wear_mm, &mut self.depth_mm);
-        let mut pair = OnRows { rate, wear_mm, depth_mm, clean_start, probes_a_part: true };
+        let mut pair = OnRows { rate, wear_mm, depth_mm, clean_start, probes_a_part: true, is_steep };
         let room = interval.limit - interval.from;
         match self.integrator.step(&mut pair, &mut self.state, &mut self.slope, room) {
             Ok(length) => {
@@ -228,7 +229,7 @@ pub(super) fn fastest_decay(
     let rate = PairRate { pair, wear, stopped, meshes, work: Work::default(), partial_at_end: 0 };
     rate.read_slope(&mut depth_mm, &mut slope);
     let (wear_mm, depth_mm) = (&mut wear_mm, &mut depth_mm);
-    let mut rows = OnRows { rate, wear_mm, depth_mm, clean_start: false, probes_a_part: false };
+    let mut rows = OnRows { rate, wear_mm, depth_mm, clean_start: false, probes_a_part: false, is_steep: true };
     let mut radius = SpectralRadius::default();
     let evaluations = radius.estimate(&mut rows, (&state, &slope), PROBE_MM)?;
     Ok((radius.found(), evaluations))
@@ -264,6 +265,8 @@ struct OnRows<'a, 'b> {
     depth_mm: &'b mut PerGear<Vec<f64>>,
     /// Whether the next step begins from a clean start.
     clean_start: bool,
+    /// Whether wear may be severe within the step.
+    is_steep: bool,
     /// Whether a part of the mesh cycle may stand for all of it in probes of the spectral radius.
     probes_a_part: bool,
 }
@@ -342,7 +345,7 @@ impl Rate for OnRows<'_, '_> {
     }
 
     fn is_steep(&self) -> bool {
-        self.rate.wear.surely_mild_mpa().is_some()
+        self.is_steep
     }
 
     fn size(&self, row: &[f64]) -> f64 {

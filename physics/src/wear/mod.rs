@@ -202,6 +202,8 @@ pub fn of_both(settings: &PerGear<WearSettings>) -> Laws {
 
 /// Part of the pressure from which on wear is severe up to which a contact is far from it.
 const SURELY_MILD: f64 = 0.97;
+/// The same, up to which no wear of a step brings it there.
+const OUT_OF_REACH: f64 = 0.8;
 
 /// Laws of both gears, with heat and films of the mesh for laws that read them.
 #[derive(Clone, Copy)]
@@ -240,8 +242,17 @@ impl<'a> WearModel<'a> {
 
     /// Pressure up to which contacts stay far from severe wear over a wear step, MPa; none where wear is never severe.
     pub(crate) fn surely_mild_mpa(&self) -> Option<f64> {
-        let severe_from_mpa = Gear::BOTH.into_iter().filter_map(|gear| self.laws[gear].severe_from_mpa());
-        severe_from_mpa.reduce(f64::min).map(|from_mpa| SURELY_MILD * from_mpa)
+        self.severe_from_mpa().map(|from_mpa| SURELY_MILD * from_mpa)
+    }
+
+    /// Pressure up to which contacts do not come to severe wear within a wear step, MPa; none where wear is never severe.
+    pub(crate) fn out_of_reach_mpa(&self) -> Option<f64> {
+        self.severe_from_mpa().map(|from_mpa| OUT_OF_REACH * from_mpa)
+    }
+
+    /// Pressure from which on either flank wears severely, MPa; none where wear is never severe.
+    fn severe_from_mpa(&self) -> Option<f64> {
+        Gear::BOTH.into_iter().filter_map(|gear| self.laws[gear].severe_from_mpa()).reduce(f64::min)
     }
 
     /// Friction heat, where either law reads contact conditions.

@@ -103,6 +103,8 @@ pub struct Adaptive {
     control: StepControl,
     /// Accepted steps since the spectral radius was last estimated.
     age: u32,
+    /// Whether the rate was steep in the last step.
+    was_steep: bool,
     /// Rejected steps since the last accepted one.
     rejected_in_a_row: u32,
     /// Length run since the start.
@@ -131,6 +133,7 @@ impl Adaptive {
             radius: SpectralRadius::default(),
             control: StepControl::default(),
             age: 0,
+            was_steep: false,
             rejected_in_a_row: 0,
             run: 0.0,
             counts: StepCounts::default(),
@@ -183,6 +186,9 @@ impl Adaptive {
         if self.control.next().is_none() {
             let first = self.first_length(rate, state, slope, room)?;
             self.control.set_next(first);
+        }
+        if std::mem::replace(&mut self.was_steep, rate.is_steep()) != rate.is_steep() {
+            self.radius.reset();
         }
         let aim = Aim::of(rate);
         let floor = (FLOOR * self.run).max(FLOOR_OF_RUN * self.duration);
