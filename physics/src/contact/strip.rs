@@ -119,7 +119,7 @@ fn means_of_cells(samples: &WeightedRows, points: usize) -> WeightedRows {
         sums.clear();
         sums.resize(end - first, 0.0);
         for ((from, weights), part) in of_cell.into_iter().zip(OF_CELL) {
-            sums[from - first..].iter_mut().zip(weights).for_each(|(sum, weight)| *sum += part * weight);
+            sums[from - first..].iter_mut().zip(weights).for_each(|(sum, weight)| *sum += part * f64::from(*weight));
         }
         cells.push(first, &sums);
     }

@@ -1,4 +1,5 @@
-//! Rows of a matrix with few weights each, on consecutive values.
+//! Rows of a matrix with few weights each, on consecutive values. Packed weights are of single precision, which is 6e-8 of them: they are most of what a
+//! sliced pair holds in memory, and products wait for them.
 
 /// Lengths of rows for which there is a product of its own.
 const UNROLLED: [usize; 7] = [2, 4, 6, 8, 10, 12, 16];
@@ -43,11 +44,11 @@ impl RowsOfAnyLength {
         let count = self.first.len();
         let widest = (0..count).map(|k| self.row(k).1.len()).max().unwrap_or_default();
         let width = UNROLLED.into_iter().find(|width| (widest..=values).contains(width)).unwrap_or(widest);
-        let (mut first, mut packed) = (Vec::with_capacity(count), vec![0.0; count * width]);
+        let (mut first, mut packed) = (Vec::with_capacity(count), vec![0.0_f32; count * width]);
         for (k, to) in (0..count).zip(packed.chunks_exact_mut(width.max(1))) {
             let (from, weights) = self.row(k);
             let begin = from.min(values - width);
-            to[from - begin..][..weights.len()].copy_from_slice(weights);
+            to[from - begin..].iter_mut().zip(weights).for_each(|(to, weight)| *to = *weight as f32);
             first.push(begin as u32);
         }
         WeightedRows { width, first, weights: packed }
@@ -61,7 +62,7 @@ pub(super) struct WeightedRows {
     width: usize,
     /// Place of the first value of each row.
     first: Vec<u32>,
-    weights: Vec<f64>,
+    weights: Vec<f32>,
 }
 
 impl WeightedRows {
@@ -81,7 +82,7 @@ impl WeightedRows {
     }
 
     /// Place of the first value of a row, and its weights.
-    pub(super) fn row(&self, k: usize) -> (usize, &[f64]) {
+    pub(super) fn row(&self, k: usize) -> (usize, &[f32]) {
         (self.first[k] as usize, &self.weights[k * self.width..(k + 1) * self.width])
     }
 
@@ -98,7 +99,8 @@ impl WeightedRows {
             _ => {
                 for (k, sum) in (from..).zip(sums) {
                     let (first, weights) = self.row(k);
-                    *sum += weights.iter().zip(&values[first..]).map(|(weight, value)| weight * value).sum::<f64>();
+                    let products = weights.iter().zip(&values[first..]).map(|(weight, value)| f64::from(*weight) * value);
+                    *sum += products.sum::<f64>();
                 }
             }
         }
@@ -110,8 +112,8 @@ impl WeightedRows {
             let values = values[*first as usize..].first_chunk::<WIDTH>().expect("rows end with the values");
             let (mut even, mut odd) = (0.0, 0.0);
             for pair in 0..WIDTH / 2 {
-                even += weights[2 * pair] * values[2 * pair];
-                odd += weights[2 * pair + 1] * values[2 * pair + 1];
+                even += f64::from(weights[2 * pair]) * values[2 * pair];
+                odd += f64::from(weights[2 * pair + 1]) * values[2 * pair + 1];
             }
             *sum += even + odd;
         }
@@ -138,6 +140,7 @@ mod tests {
             let expected = of_rows[from..].iter().map(|(first, weights)| -> f64 {
                 weights.iter().zip(&values[*first..]).map(|(weight, value)| weight * value).sum()
             });
+            // Of these weights nothing is rounded.
             assert_eq!(products, expected.collect::<Vec<f64>>());
         }
     }
