@@ -354,7 +354,8 @@ fn ver_waves_of_steps_do_not_wear_severely() {
     assert!(usual.work.mesh_cycles < 40, "{:?}", usual.work);
 }
 
-/// A limit of severe wear far above every pressure changes neither a bit of the wear nor a step, with slices and without; one within reach takes shorter steps.
+/// A limit of severe wear far above every pressure takes no evaluation, with slices and without; the wear is the same but for the passage of contacts that
+/// laws with a limit sum in parts. One that tip edges come near takes shorter steps.
 #[test]
 fn ver_a_limit_out_of_reach_costs_nothing() {
     let run_with = |pair: &str, severe: &str| {
@@ -369,9 +370,13 @@ fn ver_a_limit_out_of_reach_costs_nothing() {
         let mild = run_with(pair, "");
         let far = run_with(pair, &severe("1e5"));
         assert_eq!(far.work, mild.work, "{pair}");
-        assert_eq!(far.pinion.worn_volume_mm3, mild.pinion.worn_volume_mm3, "{pair}");
+        let volume = far.pinion.worn_volume_mm3 / mild.pinion.worn_volume_mm3 - 1.0;
+        assert!(volume.abs() < 1e-4, "{pair}: {volume:e}");
         let near = run_with(pair, &severe("1e4"));
-        println!("{pair}: {} mesh cycles, {} with a limit that tip edges come near", mild.work.mesh_cycles, near.work.mesh_cycles);
+        println!(
+            "{pair}: {} mesh cycles, {} with a limit that tip edges come near",
+            mild.work.mesh_cycles, near.work.mesh_cycles
+        );
         assert!(near.work.mesh_cycles >= mild.work.mesh_cycles, "{pair}: {:?}", near.work);
     }
 }

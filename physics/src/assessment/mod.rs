@@ -166,7 +166,7 @@ fn announced<R>(
         observer.announcement(&much);
     }
     if !memory::can_be_had((NEEDED_AT_LEAST * cost.memory_gb * 1e9) as u64) {
-        return Err(RunError::Memory { gb: cost.memory_gb });
+        return Err(RunError::Memory { gb: cost.memory_gb, savings: cost.savings });
     }
     prepared(inputs, observer, carry_out)
 }

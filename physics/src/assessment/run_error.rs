@@ -27,12 +27,12 @@ pub enum RunError {
     #[error(transparent)]
     Calibration(#[from] CalibrationError),
     /// The run needs more memory than there is.
-    #[error(
-        "the run takes some {gb:.1} GB of memory, more than can be had; fewer helical.slices, numerics.positions or numerics.flank_points take less"
-    )]
+    #[error("the run takes some {gb:.1} GB of memory, more than can be had; less with {savings}")]
     Memory {
         /// Memory of the run, GB.
         gb: f64,
+        /// What of the scene takes less.
+        savings: String,
     },
     /// The solver failed.
     #[error(transparent)]

@@ -62,7 +62,7 @@ impl Interpolation {
     }
 
     /// Weights of the points at the samples.
-    fn weights(&self, points: usize) -> WeightedRows {
+    fn weights(&self, points: usize) -> WeightedRows<f64> {
         let mut rows = RowsOfAnyLength::of_about(self.index.len());
         let samples = self.index.iter().zip(&self.weight);
         samples.for_each(|(index, weight)| rows.push(*index as usize, &[1.0 - weight, *weight]));
@@ -86,7 +86,7 @@ fn passing(
     motion: PressureMotion,
     along_mm: &[f64],
     coordinates_mm: &[f64],
-) -> WeightedRows {
+) -> WeightedRows<f64> {
     let (geometry, grid) = (flanks.geometry, flanks.grid[gear]);
     let mut passing = RowsOfAnyLength::of_about(along_mm.len());
     let within = points_within(flanks, gear);
@@ -109,7 +109,7 @@ fn passing(
 }
 
 /// Weights in the means over cells of two intervals between samples each, from those at the samples.
-fn means_of_cells(samples: &WeightedRows, points: usize) -> WeightedRows {
+fn means_of_cells(samples: &WeightedRows<f64>, points: usize) -> WeightedRows<f64> {
     let mut cells = RowsOfAnyLength::of_about(samples.count() / 2);
     let mut sums = Vec::new();
     for k in (0..samples.count() - 2).step_by(2) {
@@ -119,7 +119,7 @@ fn means_of_cells(samples: &WeightedRows, points: usize) -> WeightedRows {
         sums.clear();
         sums.resize(end - first, 0.0);
         for ((from, weights), part) in of_cell.into_iter().zip(OF_CELL) {
-            sums[from - first..].iter_mut().zip(weights).for_each(|(sum, weight)| *sum += part * f64::from(*weight));
+            sums[from - first..].iter_mut().zip(weights).for_each(|(sum, weight)| *sum += part * weight);
         }
         cells.push(first, &sums);
     }
@@ -283,7 +283,7 @@ enum Removed {
     /// Value at the place of each sample.
     Here(PerGear<Interpolation>),
     /// Mean of the material that passes each sample, or over a cell.
-    Weighted(PerGear<WeightedRows>),
+    Weighted(PerGear<WeightedRows<f64>>),
 }
 
 impl Strip {

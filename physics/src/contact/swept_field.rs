@@ -29,7 +29,7 @@ struct SweptPoints {
     /// Places along the tangent of both ends of the course of each point, mm; none for points that face nothing.
     courses_mm: Vec<Option<[f64; 2]>>,
     /// Weights of the cells in the mean pressure on each course, where the field is not mirrored.
-    means: WeightedRows,
+    means: WeightedRows<f32>,
     /// Points whose course goes beyond an end of the field, where it may be mirrored, in rising order.
     beyond: Vec<u32>,
 }

@@ -1,8 +1,28 @@
-//! Rows of a matrix with few weights each, on consecutive values. Packed weights are of single precision, which is 6e-8 of them: they are most of what a
-//! sliced pair holds in memory, and products wait for them.
+//! Rows of a matrix with few weights each, on consecutive values.
+//!
+//! Packed weights are of double or of single precision. Those in mean pressures are single: they are most of what a sliced pair holds in memory, products
+//! wait for them, and 6e-8 of a pressure is nothing. Those of removed material are not: of deep wear that is more than a light load presses flanks together.
 
 /// Lengths of rows for which there is a product of its own.
 const UNROLLED: [usize; 7] = [2, 4, 6, 8, 10, 12, 16];
+
+/// A packed weight.
+pub(super) trait Weight: Copy + Default + Into<f64> {
+    /// Nearest to this one.
+    fn of(weight: f64) -> Self;
+}
+
+impl Weight for f64 {
+    fn of(weight: f64) -> Self {
+        weight
+    }
+}
+
+impl Weight for f32 {
+    fn of(weight: f64) -> Self {
+        weight as Self
+    }
+}
 
 /// Rows, each as long as it is.
 #[derive(Debug, Clone, Default)]
@@ -40,15 +60,15 @@ impl RowsOfAnyLength {
     }
 
     /// The rows on so many values, all of one length.
-    pub(super) fn packed(&self, values: usize) -> WeightedRows {
+    pub(super) fn packed<W: Weight>(&self, values: usize) -> WeightedRows<W> {
         let count = self.first.len();
         let widest = (0..count).map(|k| self.row(k).1.len()).max().unwrap_or_default();
         let width = UNROLLED.into_iter().find(|width| (widest..=values).contains(width)).unwrap_or(widest);
-        let (mut first, mut packed) = (Vec::with_capacity(count), vec![0.0_f32; count * width]);
+        let (mut first, mut packed) = (Vec::with_capacity(count), vec![W::default(); count * width]);
         for (k, to) in (0..count).zip(packed.chunks_exact_mut(width.max(1))) {
             let (from, weights) = self.row(k);
             let begin = from.min(values - width);
-            to[from - begin..].iter_mut().zip(weights).for_each(|(to, weight)| *to = *weight as f32);
+            to[from - begin..].iter_mut().zip(weights).for_each(|(to, weight)| *to = W::of(*weight));
             first.push(begin as u32);
         }
         WeightedRows { width, first, weights: packed }
@@ -57,15 +77,15 @@ impl RowsOfAnyLength {
 
 /// Rows of one length, zeros included, whose products take no branches that depend on the row.
 #[derive(Debug, Clone)]
-pub(super) struct WeightedRows {
+pub(super) struct WeightedRows<W> {
     /// Weights of a row.
     width: usize,
     /// Place of the first value of each row.
     first: Vec<u32>,
-    weights: Vec<f32>,
+    weights: Vec<W>,
 }
 
-impl WeightedRows {
+impl<W: Weight> WeightedRows<W> {
     /// Number of rows.
     pub(super) fn count(&self) -> usize {
         self.first.len()
@@ -82,7 +102,7 @@ impl WeightedRows {
     }
 
     /// Place of the first value of a row, and its weights.
-    pub(super) fn row(&self, k: usize) -> (usize, &[f32]) {
+    pub(super) fn row(&self, k: usize) -> (usize, &[W]) {
         (self.first[k] as usize, &self.weights[k * self.width..(k + 1) * self.width])
     }
 
@@ -99,7 +119,7 @@ impl WeightedRows {
             _ => {
                 for (k, sum) in (from..).zip(sums) {
                     let (first, weights) = self.row(k);
-                    let products = weights.iter().zip(&values[first..]).map(|(weight, value)| f64::from(*weight) * value);
+                    let products = weights.iter().zip(&values[first..]).map(|(weight, value)| (*weight).into() * value);
                     *sum += products.sum::<f64>();
                 }
             }
@@ -112,8 +132,8 @@ impl WeightedRows {
             let values = values[*first as usize..].first_chunk::<WIDTH>().expect("rows end with the values");
             let (mut even, mut odd) = (0.0, 0.0);
             for pair in 0..WIDTH / 2 {
-                even += f64::from(weights[2 * pair]) * values[2 * pair];
-                odd += f64::from(weights[2 * pair + 1]) * values[2 * pair + 1];
+                even += weights[2 * pair].into() * values[2 * pair];
+                odd += weights[2 * pair + 1].into() * values[2 * pair + 1];
             }
             *sum += even + odd;
         }
@@ -132,11 +152,15 @@ mod tests {
             [(0, &[1.0, 2.0]), (3, &[0.0, -1.0, 0.5, 0.25]), (6, &[4.0]), (2, &[0.0, 0.0]), (5, &[3.0, 1.0, 0.0])];
         of_rows.iter().for_each(|(first, weights)| rows.push(*first, weights));
         let values: Vec<f64> = (0..8).map(|i| 1.0 + f64::from(i * i)).collect();
-        let packed = rows.packed(values.len());
+        products_are_those_of(&rows.packed::<f64>(values.len()), &of_rows, &values);
+        products_are_those_of(&rows.packed::<f32>(values.len()), &of_rows, &values);
+    }
+
+    fn products_are_those_of<W: Weight>(packed: &WeightedRows<W>, of_rows: &[(usize, &[f64]); 5], values: &[f64]) {
         assert_eq!((packed.count(), packed.width()), (5, 4));
         for from in 0..5 {
             let mut products = vec![0.0; 5 - from];
-            packed.add_products(from, &values, &mut products);
+            packed.add_products(from, values, &mut products);
             let expected = of_rows[from..].iter().map(|(first, weights)| -> f64 {
                 weights.iter().zip(&values[*first..]).map(|(weight, value)| weight * value).sum()
             });

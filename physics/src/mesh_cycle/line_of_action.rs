@@ -7,7 +7,8 @@ use super::load_sharing::{EquilibriumError, MeshedPair, PairEquilibrium, balance
 use super::worn_points::{ContactOnPath, WornPoints};
 use super::{
     CycleObservation, FlankOverlap, GROUPS, GreatestPressure, LoadingPosition, LostMaterial, MeshCycle,
-    PositionObservation, Work, in_series, is_exceeded, kept_wear_to_mpa, note_contact_of_points, note_figures, range_mm,
+    PositionObservation, Work, in_series, is_exceeded, kept_wear_to_mpa, note_contact_of_points, note_figures,
+    range_mm,
 };
 use crate::contact::flank_pressure::PressureFigures;
 use crate::contact::{ContactSurface, Flanks, PositionCell, Sweep};

@@ -28,6 +28,8 @@ const LEAST_MESHED_LOAD: f64 = 0.25;
 pub(crate) const VERIFIED_POSITIONS: usize = 400;
 /// Length of elements and distance of positions of the verification of a run on finite elements, over those of the run.
 pub(crate) const COARSER: f64 = 1.5;
+/// Tolerance of the wear depth in the steps of a verification, over the greatest depth.
+pub(crate) const VERIFIED_TOLERANCE: f64 = 0.03;
 /// Wear of a tip edge over the bulge of an element of its rounding, below which it is hardly worn and a verification refines the elements there.
 pub(crate) const HARDLY_WORN_BULGES: f64 = 10.0;
 /// Refinement of the elements of hardly worn roundings.

@@ -5,8 +5,11 @@
 use serde::Serialize;
 
 use super::work::Work;
-use super::{Plan, StageKind};
+use super::{Plan, StageKind, loads};
+use crate::contact::settings::SurfaceKind;
 use crate::operation::Scene;
+use crate::simulation::settings::Stepping;
+use crate::wear::settings::WearOfPair;
 use gearwear_bodies::gear::GearPair;
 
 /// Time above which a run says at its beginning what it takes, s.
@@ -24,6 +27,9 @@ pub struct RunCost {
     pub memory_gb: f64,
     /// Time of each stage that takes any, s.
     pub stages: Vec<StageCost>,
+    /// What of the scene, changed so, takes less, in words.
+    #[serde(skip)]
+    pub savings: String,
 }
 
 /// Plan of a run with its cost.
@@ -54,7 +60,8 @@ impl RunCost {
             plan.stages.iter().map(|stage| StageCost { kind: stage.kind, seconds: work.seconds(stage.kind, scene) });
         let stages: Vec<StageCost> = all.filter(|stage| stage.seconds > 0.0).collect();
         let memory_gb = work.memory_gb(scene, plan);
-        Self { seconds: stages.iter().map(|stage| stage.seconds).sum(), memory_gb, stages }
+        let seconds = stages.iter().map(|stage| stage.seconds).sum();
+        Self { seconds, memory_gb, stages, savings: savings(scene, plan) }
     }
 
     /// In words, where it is much.
@@ -64,12 +71,31 @@ impl RunCost {
         }
         let most = self.stages.iter().max_by(|a, b| a.seconds.total_cmp(&b.seconds))?;
         Some(format!(
-            "the run takes some {:.0} s on one thread, {:.0} s of them for the {}, and {:.1} GB; fewer helical.slices, numerics.positions or \
-             loads of operation.phases, or numerics.verify = false take less",
+            "the run takes some {:.0} s on one thread, {:.0} s of them for the {}, and {:.1} GB; less with {}",
             self.seconds,
             most.seconds,
             most.kind.name(),
-            self.memory_gb
+            self.memory_gb,
+            self.savings
         ))
     }
+}
+
+/// What of `scene` takes less.
+fn savings(scene: &Scene, plan: &Plan) -> String {
+    let of_elements = scene.slices.is_none() && scene.contact.surface == SurfaceKind::Fem;
+    let is_fixed = matches!(scene.numerics.stepping, Stepping::Fixed { .. });
+    let repeats = plan.has(StageKind::ErrorEstimates) && scene.wear.may_be_severe();
+    let keys = [
+        (scene.slices.is_some(), "fewer helical.slices"),
+        (true, "fewer numerics.positions"),
+        (of_elements, "fewer fem.elements_per_half_width"),
+        (!of_elements, "fewer numerics.flank_points"),
+        (loads(scene) > 1.0, "fewer loads of operation.phases"),
+        (is_fixed, "more revolutions in numerics.step"),
+        (repeats, "numerics.error_estimate = false"),
+        (plan.has(StageKind::Verification), "numerics.verify = false"),
+    ];
+    let said: Vec<&str> = keys.into_iter().filter_map(|(applies, key)| applies.then_some(key)).collect();
+    said.join(", ")
 }

@@ -352,18 +352,20 @@ fn layers_in_space(scene: &Scene) -> usize {
     SpaceResolution::of_slices(count).layers(&scene.pair, &scene.fem.in_space())
 }
 
-/// Memory of the three-dimensional finite elements of `scene`, GB: their sectors, and for each of its loads the matrices that couple its slices.
-fn memory_in_space_gb(scene: &Scene) -> f64 {
+/// Memory of the three-dimensional finite elements of `scene`, GB: their sectors while they are condensed, and for each of its loads the matrices that couple
+/// its slices afterwards.
+fn memory_in_space_gb(scene: &Scene) -> [f64; 2] {
     let loads = loads(scene);
     let count = scene.slices.map_or(1, |slices| slices.count);
     let (slices, positions) = (count as f64 / 100.0, scene.numerics.positions as f64 / 400.0);
-    SpaceResolution::of_slices(count).memory_gb(&scene.pair, &scene.fem.in_space())
-        + loads * COUPLED_GB * slices * slices * positions
+    let sectors = SpaceResolution::of_slices(count).memory_gb(&scene.pair, &scene.fem.in_space());
+    [sectors, loads * COUPLED_GB * slices * slices * positions]
 }
 
 fn teeth_in_space(scene: &Scene) -> Result<String, String> {
     let needs = |what: &str| {
-        let gb = memory_in_space_gb(scene);
+        let [sectors, coupled] = memory_in_space_gb(scene);
+        let gb = sectors.max(coupled);
         Ok(format!("{what}: one sector of each gear over the whole face width, condensed in some {gb:.1} GB"))
     };
     match scene.slices.map(|slices| slices.coupling) {

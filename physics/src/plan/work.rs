@@ -1,10 +1,10 @@
 //! Work of the stages of a run, counted in the sizes that it grows with, and the time and memory of each unit.
 //!
-//! Units were measured once, on one thread of a core of some 2.5 GHz. Mesh cycles are those of Runge–Kutta–Chebyshev's steps, which grow with the root
-//! of the stiffness of wear, its depth over the deflection across the distance of two points:
+//! Units were measured once, on one thread of a core of some 2.5 GHz. Mesh cycles are those of Runge–Kutta–Chebyshev's steps. Their stages grow with the root
+//! of the stiffness of wear, its depth over the deflection across the distance of two points, and steps with the depth over the tolerance T:
 //!
 //! ```text
-//! s = 2 h E* / (p Δ)      cycles = c₀ + c₁ √s
+//! s = 2 h E* / (p Δ)      cycles = c₀ + c₁ √s (1 + 2 h/T)^0.3
 //! ```
 //!
 //! h: mean depth of VDI 2736, half of the greatest or less; p: greatest pressure at the pitch point; Δ: distance of points or nodes.
@@ -17,6 +17,7 @@ use crate::contact::hertz;
 use crate::contact::settings::SurfaceKind;
 use crate::operation::{
     COARSER, HARDLY_WORN_BULGES, LEAST_HALF_WIDTH_MODULES, ON_HARDLY_WORN_EDGES, Scene, VERIFIED_POSITIONS,
+    VERIFIED_TOLERANCE,
 };
 use crate::simulation::settings::Stepping;
 use crate::wear::settings::WearOfPair;
@@ -38,22 +39,25 @@ const ERROR_ESTIMATES: [f64; 3] = [2.2, 0.8, 0.15];
 const POINTS_OF_POSITION: f64 = 12.0;
 /// Positions of the verification of slices, its least number of slices, and its slices over the run's own.
 const VERIFIED_SLICES: (f64, f64, f64) = (150.0, 26.0, 1.3);
-/// Time of the output of a flank point of a slice, s.
-const OUTPUT_S: f64 = 9e-6;
+/// Time of the output, and of that of a flank point of a slice, s.
+const OUTPUT_S: [f64; 2] = [0.06, 9e-6];
 /// Time of three-dimensional finite elements over the square of the number of elements over the face width, s.
 const IN_SPACE_S: f64 = 0.005;
 /// Memory of a program that has begun, without and with slices, and of one that has plane finite elements, GB.
-const PROGRAM_GB: [f64; 3] = [0.016, 0.035, 0.04];
+const PROGRAM_GB: [f64; 3] = [0.016, 0.035, 0.065];
 
 /// Mesh cycles c₀ and c₁ of a run, and those with severe wear over those without.
 struct CycleCounts(f64, f64, f64);
 
+/// Exponent of the depth over the tolerance in the number of steps.
+const STEPS_OF_DEPTH: f64 = 0.3;
 /// Mesh cycles from which they grow no more: the wear of flanks that hardly touch is not as stiff as this.
 const MOST_CYCLES: f64 = 1000.0;
-const ON_POINTS: CycleCounts = CycleCounts(8.0, 3.0, 2.0);
-const ON_ELEMENTS: CycleCounts = CycleCounts(6.5, 4.3, 4.0);
+const ON_POINTS: CycleCounts = CycleCounts(7.0, 1.35, 2.0);
+const ON_ELEMENTS: CycleCounts = CycleCounts(12.3, 2.8, 2.5);
+const OF_VERIFIED_ELEMENTS: CycleCounts = CycleCounts(4.4, 2.8, 1.0);
 /// The steps of this verification are closer.
-const OF_VERIFIED_SLICES: CycleCounts = CycleCounts(5.0, 8.0, 4.0);
+const OF_VERIFIED_SLICES: CycleCounts = CycleCounts(5.0, 2.8, 4.0);
 
 /// Contact at the pitch point under the greatest load, and the wear that is expected.
 struct PitchContact {
@@ -62,6 +66,8 @@ struct PitchContact {
     strain: f64,
     /// Mean wear depth of the gear that wears more, mm.
     depth_mm: f64,
+    /// Tolerance of adaptive steps, and of those of a verification, mm.
+    tolerances_mm: [f64; 2],
     is_severe: bool,
 }
 
@@ -86,7 +92,7 @@ pub(super) struct Work {
 struct PlaneElements {
     /// Nodes of the flanks of both gears.
     nodes: [f64; 2],
-    /// Multipliers of a position.
+    /// Multipliers of a position, root of their mean square.
     multipliers: f64,
     /// Positions in a base pitch, of all loads.
     positions: f64,
@@ -105,18 +111,26 @@ impl PitchContact {
             Some(mean_wear_mm(pair, gear, stretches.into_iter()))
         });
         let deepest_mm = depth_mm.into_iter().flatten().fold(0.0, f64::max);
+        let depth_mm = if deepest_mm > 0.0 { deepest_mm } else { USUAL_DEPTH_MM };
+        let verifying_mm = VERIFIED_TOLERANCE * GREATEST_DEPTH * depth_mm;
         Self {
             half_width_mm: contact.half_width_mm,
             strain: contact.peak_pressure_mpa / contact_modulus_mpa(scene.material.map(Material::elastic)),
-            depth_mm: if deepest_mm > 0.0 { deepest_mm } else { USUAL_DEPTH_MM },
+            depth_mm,
+            tolerances_mm: match scene.numerics.stepping {
+                Stepping::Adaptive { tolerance_mm } => [tolerance_mm, verifying_mm],
+                Stepping::Fixed { .. } => [verifying_mm; 2],
+            },
             is_severe: scene.wear.is_severe_under(contact.peak_pressure_mpa, 0.5),
         }
     }
 
-    /// Mesh cycles of adaptive steps where points or nodes are `apart_mm` apart.
-    fn cycles(&self, CycleCounts(least, of_root, severe): CycleCounts, apart_mm: f64) -> f64 {
-        let stiffness = GREATEST_DEPTH * self.depth_mm / (self.strain * apart_mm);
-        let cycles = (least + of_root * stiffness.sqrt()) * if self.is_severe { severe } else { 1.0 };
+    /// Mesh cycles of adaptive steps of a run, or of its verification, where points or nodes are `apart_mm` apart.
+    fn cycles(&self, CycleCounts(least, of_root, severe): CycleCounts, apart_mm: f64, verifies: bool) -> f64 {
+        let greatest_mm = GREATEST_DEPTH * self.depth_mm;
+        let stages = (greatest_mm / (self.strain * apart_mm)).sqrt();
+        let steps = (1.0 + greatest_mm / self.tolerances_mm[usize::from(verifies)]).powf(STEPS_OF_DEPTH);
+        let cycles = (least + of_root * stages * steps) * if self.is_severe { severe } else { 1.0 };
         cycles.min(MOST_CYCLES)
     }
 }
@@ -137,7 +151,7 @@ impl Work {
         let [own, verifying] = elements;
         let own = PlaneElements { mesh_cycles: fixed.unwrap_or(own.mesh_cycles), ..own };
         Self {
-            mesh_cycles: fixed.unwrap_or_else(|| contact.cycles(ON_POINTS, point_mm).max(2.0 * snapshots)),
+            mesh_cycles: fixed.unwrap_or_else(|| contact.cycles(ON_POINTS, point_mm, false).max(2.0 * snapshots)),
             contact,
             positions: scene.numerics.positions as f64 * loads,
             points: scene.numerics.flank_points as f64 * loads,
@@ -174,13 +188,15 @@ impl Work {
             }
             StageKind::Verification => match self.contacts_of_verified_slices(scene) {
                 Some(contacts) => {
-                    let cycles = self.contact.cycles(OF_VERIFIED_SLICES, self.point_mm);
+                    let cycles = self.contact.cycles(OF_VERIFIED_SLICES, self.point_mm, true);
                     self.wear_run(SurfaceKind::HalfSpace, contacts, cycles)
                 }
                 None => verifying.wear_run_s() + if verifying.are_own { verifying.model_s() } else { 0.0 },
             },
             StageKind::Report => {
-                OUTPUT_S * scene.numerics.flank_points as f64 * self.slices.map_or(0.0, |slices| 2.0 * slices)
+                let [least, of_point] = OUTPUT_S;
+                let slices = self.slices.unwrap_or_default();
+                least + 2.0 * of_point * slices * scene.numerics.flank_points as f64
             }
             _ => 0.0,
         }
@@ -202,10 +218,10 @@ impl Work {
     fn wear_run(&self, surface: SurfaceKind, contacts: f64, cycles: f64) -> f64 {
         let (prepared_us, cycle_us) = match (surface, self.slices.is_some()) {
             (SurfaceKind::Fem, _) => return self.elements[0].wear_run_s(),
-            (SurfaceKind::HalfSpace, false) => (160.0, 7.0),
+            (SurfaceKind::HalfSpace, false) => (160.0, 16.0),
             (SurfaceKind::HalfSpace, true) => (95.0, 11.0),
-            (SurfaceKind::Winkler, false) => (95.0, 4.0),
-            (SurfaceKind::Winkler, true) => (50.0, 5.0),
+            (SurfaceKind::Winkler, false) => (95.0, 5.5),
+            (SurfaceKind::Winkler, true) => (50.0, 6.5),
             (SurfaceKind::Hertz, false) => (45.0, 4.0),
             (SurfaceKind::Hertz, true) => (28.0, 6.5),
             (SurfaceKind::HertzMean, false) => (25.0, 0.6),
@@ -223,18 +239,22 @@ impl Work {
         let plane = if plan.has(StageKind::FiniteElementModel) { with_elements + own.model_gb() } else { without };
         let is_verified = plan.has(StageKind::Verification);
         let Some(slices) = self.slices else {
-            let own = if scene.contact.surface == SurfaceKind::Fem { own.positions_gb() } else { 0.0 };
-            return plane + own.max(if is_verified { verifying.positions_gb() } else { 0.0 });
+            let own = if scene.contact.surface == SurfaceKind::Fem { own.positions_gb(self.loads) } else { 0.0 };
+            return plane + own.max(if is_verified { verifying.positions_gb(self.loads) } else { 0.0 });
         };
+        let on_half_planes_kb = 5.0 + 0.4 * self.in_contact();
         let of_contact_kb = match scene.contact.surface {
-            SurfaceKind::Winkler | SurfaceKind::HalfSpace => 5.0 + 0.6 * self.in_contact(),
+            SurfaceKind::Winkler | SurfaceKind::HalfSpace => on_half_planes_kb,
             SurfaceKind::Hertz => 5.0 + 0.15 * self.in_contact(),
             SurfaceKind::HertzMean | SurfaceKind::Fem => 1.0,
         };
         // Contacts of one load are held at a time.
-        let contacts = slices * self.positions / self.loads;
-        let in_space = if plan.has(StageKind::TeethInSpace) { memory_in_space_gb(scene) } else { 0.0 };
-        plane.max(with_slices + 1e-6 * of_contact_kb * contacts + in_space)
+        let of_run = of_contact_kb * slices * self.positions / self.loads;
+        let verified = if is_verified { self.contacts_of_verified_slices(scene).unwrap_or_default() } else { 0.0 };
+        let contacts = 1e-6 * of_run.max(on_half_planes_kb * verified / self.loads);
+        let [sectors, coupled] = if plan.has(StageKind::TeethInSpace) { memory_in_space_gb(scene) } else { [0.0; 2] };
+        // Sectors are condensed before the contacts are prepared.
+        plane.max(with_slices + sectors.max(contacts + coupled))
     }
 }
 
@@ -264,28 +284,37 @@ impl PlaneElements {
         let refinement = if verifies && is_hardly_worn { ON_HARDLY_WORN_EDGES } else { 1.0 };
         let shortest_mm =
             on_rounding_mm(refinement).map(|(_, element)| element).fold(half_width_mm / in_half_width, f64::min);
-        // Elements of a rounding reach over the flank that it touches, as far as the contact is wide.
-        let over_rounding = |rounding: f64, most: f64| {
-            if rounding > 0.0 { (half_width_mm / rounding).min(most) } else { 0.0 }
+        // Elements of a rounding reach over the flank that it touches, as far as the contact is wide; they grow away from it, so that sharper roundings ask
+        // for no more of them in the end.
+        let of_rounding = |rounding_mm: f64, enough: f64| {
+            if rounding_mm > 0.0 { -(-half_width_mm / (enough * rounding_mm)).exp_m1() } else { 0.0 }
         };
         let [pinion, wheel] = rounding_mm;
         let nodes = [(Gear::Pinion, pinion, wheel), (Gear::Wheel, wheel, pinion)].map(|(gear, own, mate)| {
-            let of_flank = 9.0 + 1.27 * flank_mm(pair, gear) / half_width_mm;
-            let of_rounding = if own > 0.0 { 22.0 } else { 0.0 };
-            in_half_width * (of_flank + refinement * (of_rounding + 19.0 * over_rounding(mate, 40.0 / refinement)))
+            let of_flank = 8.2 + 1.59 * flank_mm(pair, gear) / half_width_mm;
+            let of_own = if own > 0.0 { 8.3 * refinement } else { 0.0 };
+            in_half_width * (of_flank + of_own + 343.0 * of_rounding(mate, 15.0 / refinement))
         });
-        let at_edges: f64 =
-            rounding_mm.into_iter().map(|rounding| refinement * over_rounding(rounding, 15.0 / refinement)).sum();
         let even_mm = (pair.path.end_mm - pair.path.start_mm) / positions;
         let [away_mm, edges_mm] = [(0.5, 0.5, 4.0), (0.15, 0.25, 1.0)]
             .map(|(part, least, most)| (part * half_width_mm).max(least * even_mm).min(most * even_mm));
         let pitch_mm = pair.path.base_pitch_mm;
         let of_edges_mm = pitch_mm.min(8.0 * half_width_mm);
+        // Positions at tip edges have the more multipliers, and are the more of all the wider the contact is.
+        let over_pitch = half_width_mm / pitch_mm;
+        let enough = 2.9 * refinement.powf(-0.4);
+        let at_edges: f64 = rounding_mm.into_iter().map(|rounding_mm| of_rounding(rounding_mm, enough)).sum();
+        let of_edges = 1.03e6 * refinement.powf(0.86) * at_edges * over_pitch.powf(1.33);
+        let mean_square = 1220.0 + of_edges + 12_900.0 * over_pitch;
         Self {
             nodes,
-            multipliers: in_half_width / 3.0 * (10.5 + 13.3 * at_edges),
-            positions: 1.9 * loads(scene) * ((pitch_mm - of_edges_mm) / away_mm + of_edges_mm / edges_mm),
-            mesh_cycles: contact.cycles(ON_ELEMENTS, shortest_mm),
+            multipliers: in_half_width / 3.0 * mean_square.sqrt(),
+            positions: 1.19 * loads(scene) * ((pitch_mm - of_edges_mm) / away_mm + of_edges_mm / edges_mm),
+            mesh_cycles: contact.cycles(
+                if verifies { OF_VERIFIED_ELEMENTS } else { ON_ELEMENTS },
+                shortest_mm,
+                verifies,
+            ),
             are_own: refinement > 1.0 || is_coarser,
         }
     }
@@ -298,17 +327,17 @@ impl PlaneElements {
     /// Time of a wear run, its preparation included, s.
     fn wear_run_s(&self) -> f64 {
         let squared = self.multipliers.powi(2);
-        1e-6 * self.positions * (250.0 + 0.039 * squared + self.mesh_cycles * (11.0 + 0.0012 * squared))
+        1e-6 * self.positions * (330.0 + 0.07 * squared + self.mesh_cycles * (10.0 + 0.0023 * squared))
     }
 
     /// Memory of the condensed gears, GB.
     fn model_gb(&self) -> f64 {
-        1.1e-7 * self.nodes.iter().map(|nodes| nodes * nodes).sum::<f64>()
+        6.7e-8 * self.nodes.iter().map(|nodes| nodes * nodes).sum::<f64>()
     }
 
-    /// Memory of the positions, GB: some two matrices of the multipliers each.
-    fn positions_gb(&self) -> f64 {
-        1.5e-8 * self.positions * self.multipliers.powi(2)
+    /// Memory of the positions of one of so many loads, GB: some three matrices of the multipliers each.
+    fn positions_gb(&self, loads: f64) -> f64 {
+        2.3e-8 * self.positions / loads * self.multipliers.powi(2)
     }
 }
 

@@ -36,7 +36,9 @@ use crate::mesh_cycle::pair_in_space::{PairInSpace, PairInSpaceError};
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::mesh_cycle::{CycleObservation, PositionObservation};
 use crate::observer::Observer;
-use crate::operation::{COARSER, LEAST_HALF_WIDTH_MODULES, ON_HARDLY_WORN_EDGES, Scene, VERIFIED_POSITIONS};
+use crate::operation::{
+    COARSER, LEAST_HALF_WIDTH_MODULES, ON_HARDLY_WORN_EDGES, Scene, VERIFIED_POSITIONS, VERIFIED_TOLERANCE,
+};
 use crate::plan::is_finest_in_space;
 use crate::results::error::{ErrorNewAndWorn, ErrorPerGear, ErrorSummary, TotalError};
 use crate::results::run::StopReason;
@@ -53,8 +55,6 @@ use gearwear_bodies::gear_mesh::settings::{BodySettings, kink_element_mm};
 use gearwear_bodies::material::{Material, contact_modulus_mpa};
 use gearwear_bodies::reference::flattening::Flattening;
 
-/// Tolerance of the wear depth over the greatest depth.
-const TOLERANCE: f64 = 0.03;
 /// Least tolerance of the wear depth, mm.
 const LEAST_TOLERANCE_MM: f64 = 1e-9;
 /// Most wear steps: ordinary runs take some fifteen, runs with severe wear or of great depth some hundreds.
@@ -302,7 +302,7 @@ fn simulate(
         model.phases.iter().zip(contacts).map(|(phase, contact)| RunPhase { contact, ..*phase }).collect();
     let deepest_mm = outcome.worn.deepest_mm(Gear::Pinion).max(outcome.worn.deepest_mm(Gear::Wheel));
     // Above SHALLOW_MM the integrator's own tolerance grows with the wear.
-    let tolerance_mm = (TOLERANCE * deepest_mm.min(SHALLOW_MM)).max(LEAST_TOLERANCE_MM);
+    let tolerance_mm = (VERIFIED_TOLERANCE * deepest_mm.min(SHALLOW_MM)).max(LEAST_TOLERANCE_MM);
     let stepping = Stepping::Adaptive { tolerance_mm };
     let numerics = Numerics { positions, stepping, ..model.scene.numerics };
     let run = WearRun { phases: &phases, numerics, snapshots_revolutions: &[], ..model.wear_run() };
