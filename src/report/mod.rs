@@ -51,7 +51,8 @@ use self::files::{place, remove, write_json};
 use gearwear_bodies::gear::Gear;
 use gearwear_physics::results::run::RunRecord;
 
-/// Writes all files of `record` but the page and `summary.json` into `dir`, which is made if need be; returns their paths. The file that only a pair with slices has is taken away where `record` has none.
+/// Writes all files of `record` but the page and `summary.json` into `dir`, which is made if need be; returns their paths, `flank.vtu` last. Files that only
+/// some runs have are taken away where `record` has nothing for them.
 pub fn write_data(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     create_folder(dir)?;
     let flank = || place(dir, output_files::FLANK, |out| flank_mesh::write(out, record));

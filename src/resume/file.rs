@@ -11,7 +11,7 @@ use gearwear_files::whole_file;
 use gearwear_physics::simulation::checkpoint::Checkpoint;
 
 /// What the file says that it is.
-const STAMP: Stamp = Stamp { kind: "checkpoint", format: 5 };
+const STAMP: Stamp = Stamp { kind: "checkpoint", format: 6 };
 
 /// A checkpoint with the run it is of.
 #[derive(Debug, Clone, PartialEq, Deserialize)]

@@ -354,8 +354,8 @@ fn ver_waves_of_steps_do_not_wear_severely() {
     assert!(usual.work.mesh_cycles < 40, "{:?}", usual.work);
 }
 
-/// A limit of severe wear far above every pressure takes no evaluation, with slices and without; the wear is the same but for the passage of contacts that
-/// laws with a limit sum in parts. One that tip edges come near takes shorter steps.
+/// A limit of severe wear far above every pressure takes no evaluation more, with slices and without, and the wear is the same but for rounding: with a limit
+/// the wear of a contact is summed cell by cell. A limit that tip edges come near takes shorter steps.
 #[test]
 fn ver_a_limit_out_of_reach_costs_nothing() {
     let run_with = |pair: &str, severe: &str| {
@@ -377,7 +377,7 @@ fn ver_a_limit_out_of_reach_costs_nothing() {
             "{pair}: {} mesh cycles, {} with a limit that tip edges come near",
             mild.work.mesh_cycles, near.work.mesh_cycles
         );
-        assert!(near.work.mesh_cycles >= mild.work.mesh_cycles, "{pair}: {:?}", near.work);
+        assert!(near.work.mesh_cycles > mild.work.mesh_cycles, "{pair}: {:?}", near.work);
     }
 }
 

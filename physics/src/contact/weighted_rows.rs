@@ -1,7 +1,8 @@
 //! Rows of a matrix with few weights each, on consecutive values.
 //!
-//! Packed weights are of double or of single precision. Those in mean pressures are single: they are most of what a sliced pair holds in memory, products
-//! wait for them, and 6e-8 of a pressure is nothing. Those of removed material are not: of deep wear that is more than a light load presses flanks together.
+//! Packed weights are of double or of single precision. Those in mean pressures are single: they are most of what a sliced pair holds in memory, reading them
+//! takes most of the time of a product, and rounding changes a pressure by 6e-8 of it. Those of removed material are double: 6e-8 of deep wear can be more
+//! than the depth to which a light load presses flanks together.
 
 /// Lengths of rows for which there is a product of its own.
 const UNROLLED: [usize; 7] = [2, 4, 6, 8, 10, 12, 16];

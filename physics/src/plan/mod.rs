@@ -364,9 +364,8 @@ fn memory_in_space_gb(scene: &Scene) -> [f64; 2] {
 
 fn teeth_in_space(scene: &Scene) -> Result<String, String> {
     let needs = |what: &str| {
-        let [sectors, coupled] = memory_in_space_gb(scene);
-        let gb = sectors.max(coupled);
-        Ok(format!("{what}: one sector of each gear over the whole face width, condensed in some {gb:.1} GB"))
+        let [sectors, _] = memory_in_space_gb(scene);
+        Ok(format!("{what}: one sector of each gear over the whole face width, condensed in some {sectors:.1} GB"))
     };
     match scene.slices.map(|slices| slices.coupling) {
         None => Err("all sections are alike".to_owned()),

@@ -96,6 +96,7 @@ struct PlaneElements {
     multipliers: f64,
     /// Positions in a base pitch, of all loads.
     positions: f64,
+    /// Of adaptive steps.
     mesh_cycles: f64,
     /// Whether they are not those of the scene.
     are_own: bool,
@@ -148,17 +149,19 @@ impl Work {
             Stepping::Adaptive { .. } => None,
         };
         let elements = [false, true].map(|verifies| PlaneElements::of(scene, pair, &contact, verifies));
-        let [own, verifying] = elements;
-        let own = PlaneElements { mesh_cycles: fixed.unwrap_or(own.mesh_cycles), ..own };
+        let adaptive = match scene.contact.surface {
+            SurfaceKind::Fem => elements[0].mesh_cycles,
+            _ => contact.cycles(ON_POINTS, point_mm, false),
+        };
         Self {
-            mesh_cycles: fixed.unwrap_or_else(|| contact.cycles(ON_POINTS, point_mm, false).max(2.0 * snapshots)),
+            mesh_cycles: fixed.unwrap_or(adaptive.max(2.0 * snapshots)),
             contact,
             positions: scene.numerics.positions as f64 * loads,
             points: scene.numerics.flank_points as f64 * loads,
             point_mm,
             loads,
             slices: scene.slices.map(|slices| slices.count as f64),
-            elements: [own, verifying],
+            elements,
         }
     }
 
@@ -186,12 +189,16 @@ impl Work {
                 };
                 over_run * self.seconds(StageKind::Simulation, scene)
             }
-            StageKind::Verification => match self.contacts_of_verified_slices(scene) {
-                Some(contacts) => {
+            StageKind::Verification => match self.verified_slices(scene) {
+                Some(verified) => {
+                    let contacts = VERIFIED_SLICES.0 * self.loads * verified;
                     let cycles = self.contact.cycles(OF_VERIFIED_SLICES, self.point_mm, true);
                     self.wear_run(SurfaceKind::HalfSpace, contacts, cycles)
                 }
-                None => verifying.wear_run_s() + if verifying.are_own { verifying.model_s() } else { 0.0 },
+                None => {
+                    verifying.wear_run_s(verifying.mesh_cycles)
+                        + if verifying.are_own { verifying.model_s() } else { 0.0 }
+                }
             },
             StageKind::Report => {
                 let [least, of_point] = OUTPUT_S;
@@ -202,11 +209,11 @@ impl Work {
         }
     }
 
-    /// Contacts of slices at all positions of a verification; none of a plane one.
-    fn contacts_of_verified_slices(&self, scene: &Scene) -> Option<f64> {
-        let (positions, least, over_own) = VERIFIED_SLICES;
+    /// Slices of a verification; none of a plane one.
+    fn verified_slices(&self, scene: &Scene) -> Option<f64> {
+        let (_, least, over_own) = VERIFIED_SLICES;
         let own = self.slices?;
-        Some(positions * self.loads * if is_finest_in_space(scene) { over_own * own } else { own.max(least) })
+        Some(if is_finest_in_space(scene) { over_own * own } else { own.max(least) })
     }
 
     /// Flank points in a contact at the pitch point.
@@ -217,7 +224,7 @@ impl Work {
     /// Time of a wear run on so many contacts, s.
     fn wear_run(&self, surface: SurfaceKind, contacts: f64, cycles: f64) -> f64 {
         let (prepared_us, cycle_us) = match (surface, self.slices.is_some()) {
-            (SurfaceKind::Fem, _) => return self.elements[0].wear_run_s(),
+            (SurfaceKind::Fem, _) => return self.elements[0].wear_run_s(cycles),
             (SurfaceKind::HalfSpace, false) => (160.0, 16.0),
             (SurfaceKind::HalfSpace, true) => (95.0, 11.0),
             (SurfaceKind::Winkler, false) => (95.0, 5.5),
@@ -242,19 +249,26 @@ impl Work {
             let own = if scene.contact.surface == SurfaceKind::Fem { own.positions_gb(self.loads) } else { 0.0 };
             return plane + own.max(if is_verified { verifying.positions_gb(self.loads) } else { 0.0 });
         };
-        let on_half_planes_kb = 5.0 + 0.4 * self.in_contact();
-        let of_contact_kb = match scene.contact.surface {
-            SurfaceKind::Winkler | SurfaceKind::HalfSpace => on_half_planes_kb,
-            SurfaceKind::Hertz => 5.0 + 0.15 * self.in_contact(),
-            SurfaceKind::HertzMean | SurfaceKind::Fem => 1.0,
+        let own = self.sliced_gb(scene.contact.surface, slices, self.positions / self.loads);
+        let contacts = match self.verified_slices(scene).filter(|_| is_verified) {
+            Some(verified) => own.max(self.sliced_gb(SurfaceKind::HalfSpace, verified, VERIFIED_SLICES.0)),
+            None => own,
         };
-        // Contacts of one load are held at a time.
-        let of_run = of_contact_kb * slices * self.positions / self.loads;
-        let verified = if is_verified { self.contacts_of_verified_slices(scene).unwrap_or_default() } else { 0.0 };
-        let contacts = 1e-6 * of_run.max(on_half_planes_kb * verified / self.loads);
         let [sectors, coupled] = if plan.has(StageKind::TeethInSpace) { memory_in_space_gb(scene) } else { [0.0; 2] };
         // Sectors are condensed before the contacts are prepared.
         plane.max(with_slices + sectors.max(contacts + coupled))
+    }
+
+    /// Memory of the contacts of so many slices at positions of one load, and of the points of their flanks, GB.
+    fn sliced_gb(&self, surface: SurfaceKind, slices: f64, positions: f64) -> f64 {
+        let (contact_kb, in_contact_kb, point_kb) = match surface {
+            SurfaceKind::HalfSpace => (4.7, 0.17, 3.3),
+            SurfaceKind::Winkler => (5.7, 0.36, 2.1),
+            SurfaceKind::Hertz => (5.0, 0.15, 1.8),
+            SurfaceKind::HertzMean | SurfaceKind::Fem => (0.5, 0.0, 1.1),
+        };
+        let of_contacts_kb = positions * (contact_kb + in_contact_kb * self.in_contact());
+        1e-6 * slices * (of_contacts_kb + point_kb * self.points / self.loads)
     }
 }
 
@@ -325,9 +339,9 @@ impl PlaneElements {
     }
 
     /// Time of a wear run, its preparation included, s.
-    fn wear_run_s(&self) -> f64 {
+    fn wear_run_s(&self, cycles: f64) -> f64 {
         let squared = self.multipliers.powi(2);
-        1e-6 * self.positions * (330.0 + 0.07 * squared + self.mesh_cycles * (10.0 + 0.0023 * squared))
+        1e-6 * self.positions * (330.0 + 0.07 * squared + cycles * (10.0 + 0.0023 * squared))
     }
 
     /// Memory of the condensed gears, GB.

@@ -229,7 +229,7 @@ pub(super) fn fastest_decay(
     let rate = PairRate { pair, wear, stopped, meshes, work: Work::default(), partial_at_end: 0 };
     rate.read_slope(&mut depth_mm, &mut slope);
     let (wear_mm, depth_mm) = (&mut wear_mm, &mut depth_mm);
-    let mut rows = OnRows { rate, wear_mm, depth_mm, clean_start: false, probes_a_part: false, is_steep: true };
+    let mut rows = OnRows { rate, wear_mm, depth_mm, clean_start: false, probes_a_part: false, is_steep: false };
     let mut radius = SpectralRadius::default();
     let evaluations = radius.estimate(&mut rows, (&state, &slope), PROBE_MM)?;
     Ok((radius.found(), evaluations))

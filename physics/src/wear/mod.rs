@@ -202,7 +202,7 @@ pub fn of_both(settings: &PerGear<WearSettings>) -> Laws {
 
 /// Part of the pressure from which on wear is severe up to which a contact is far from it.
 const SURELY_MILD: f64 = 0.97;
-/// The same, up to which no wear of a step brings it there.
+/// The same, up to which the wear of a step hardly brings it there.
 const OUT_OF_REACH: f64 = 0.8;
 
 /// Laws of both gears, with heat and films of the mesh for laws that read them.
@@ -245,7 +245,7 @@ impl<'a> WearModel<'a> {
         self.severe_from_mpa().map(|from_mpa| SURELY_MILD * from_mpa)
     }
 
-    /// Pressure up to which contacts do not come to severe wear within a wear step, MPa; none where wear is never severe.
+    /// Pressure up to which contacts hardly come to severe wear within a wear step, MPa; none where wear is never severe.
     pub(crate) fn out_of_reach_mpa(&self) -> Option<f64> {
         self.severe_from_mpa().map(|from_mpa| OUT_OF_REACH * from_mpa)
     }

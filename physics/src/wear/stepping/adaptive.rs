@@ -9,7 +9,7 @@
 //!
 //! What was estimated is worn down by later steps but for its mean over a contact, and is most of all that a worn zone grows by a place: of 72 random
 //! scenes without severe wear the error at the end of the run is 0.05 of the tolerance in the median, in 95 % of them at most 0.5 of it; beyond that at
-//! cliffs of the wear, whatever the tolerance. Steps of steep rates, as with a limit of severe wear, may spend 0.3 T whatever the wear: waves that they
+//! cliffs of the wear, whatever the tolerance. Steps of steep rates, as near severe wear, may spend 0.3 T whatever the wear: waves that they
 //! leave are worn severely. The error at the end is 0.07 of the tolerance in the geometric mean of 20 random scenes with severe wear, and 1.4 of it at most
 //! (wear of eleven tolerances, soft wheel, abrupt limit).
 //!
