@@ -298,3 +298,48 @@ fn plates_stand_in_for_teeth_in_space() {
     let asked = coarse(&wide).with("helical.coupling", "fem").unwrap();
     assert!(matches!(gearwear::run(&asked, &Unwatched), Err(RunError::TeethInSpace(_))));
 }
+
+/// Heavily loaded plastics, whose tip edges carry where the corrected compliance of the teeth in space is negative: the run says so, and what does without them.
+#[test]
+fn a_negative_compliance_is_said_with_what_helps() {
+    let scene = r#"
+[pair]
+backlash_um = 42.11
+face_width_mm = 5.225
+helix_angle_deg = 22.95
+normal_module_mm = 1.035
+pressure_angle_deg = 20.0
+[pair.pinion]
+teeth = 16
+profile_shift = 0.0
+[pair.wheel]
+teeth = 39
+profile_shift = -0.07181
+[material.pinion]
+preset = "PA46"
+young_modulus_GPa = 5.534
+[material.wheel]
+preset = "POM"
+young_modulus_GPa = 1.154
+[operation]
+pinion_torque_Nm = 0.5304
+pinion_speed_rpm = 116.2
+pinion_revolutions = 1000.0
+[wear]
+law = "archard"
+coefficient_m2_per_N = 3.6e-16
+[numerics]
+verify = false
+error_estimate = false
+positions = 60
+flank_points = 200
+"#;
+    let ends = |scene: &str| {
+        gearwear::run(&LoadedScene::from_toml(scene).unwrap(), &Unwatched).map(|done| done.complete().is_ok())
+    };
+    let said = ends(scene).unwrap_err().to_string();
+    assert!(said.contains("compliance of the teeth in space is negative"), "{said}");
+    assert!(said.contains("helical.coupling = \"slicing\""), "{said}");
+    let sliced = scene.replace("[numerics]", "[helical]\ncoupling = \"slicing\"\n[numerics]");
+    assert!(ends(&sliced).unwrap());
+}

@@ -36,6 +36,8 @@ pub struct TeethTogether {
     kept: Option<FactoredStep>,
     /// Number of matrices factorised so far.
     factorisations: u64,
+    /// Number of those that were not positive definite.
+    indefinite: u64,
 }
 
 /// Factorised matrix of a Newton step.
@@ -87,7 +89,13 @@ impl FactoredStep {
 impl TeethTogether {
     /// Teeth that are not yet bent.
     pub fn new(influence: Influence) -> Self {
-        Self { deflection_mm: vec![0.0; influence.of_teeth.len()], influence, kept: None, factorisations: 0 }
+        Self {
+            deflection_mm: vec![0.0; influence.of_teeth.len()],
+            influence,
+            kept: None,
+            factorisations: 0,
+            indefinite: 0,
+        }
     }
 
     /// Number of matrices factorised so far.
@@ -107,8 +115,10 @@ impl TeethTogether {
         // As long as no cell enters or leaves a contact, the tangents stay the same.
         let kept = self.kept.take().filter(|kept| kept.carrying == carrying && kept.root == root);
         let step = kept.unwrap_or_else(|| {
+            let step = FactoredStep::new(&self.influence, carrying, root);
             self.factorisations += 1;
-            FactoredStep::new(&self.influence, carrying, root)
+            self.indefinite += u64::from(matches!(step.factor, StepFactor::Indefinite(_)));
+            step
         });
         let FactoredStep { carrying, root, factor, by_approach } = &*self.kept.insert(step);
         let given = tangents
@@ -138,6 +148,14 @@ impl CoupledTeeth {
         match self {
             Self::Plates { teeth, .. } => teeth.iter_mut().for_each(BentTooth::straighten),
             Self::Together(teeth) => teeth.deflection_mm.fill(0.0),
+        }
+    }
+
+    /// Number of steps so far whose matrix was not positive definite, so that some loads would have grown by giving way.
+    pub(crate) fn indefinite_steps(&self) -> u64 {
+        match self {
+            Self::Plates { .. } => 0,
+            Self::Together(teeth) => teeth.indefinite,
         }
     }
 

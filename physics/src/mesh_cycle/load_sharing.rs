@@ -53,6 +53,15 @@ pub enum EquilibriumError {
     /// The user stops the run.
     #[error("interrupted")]
     Interrupted,
+    /// Finite elements of teeth in space, corrected for their local error, have a negative compliance, and the load has come to contacts where they do.
+    #[error(
+        "at position {position_mm:.4} mm the load comes to tip edges where the corrected compliance of the teeth in space is negative, as their elements are too \
+         coarse there: use helical.coupling = \"slicing\", less load, or tip relief"
+    )]
+    NegativeCompliance {
+        /// Position of the reference pair.
+        position_mm: f64,
+    },
     /// Neither Newton's method nor bisection met the tolerance.
     #[error(
         "the loads of the tooth pairs do not balance at position {position_mm:.4} mm: \

@@ -95,6 +95,7 @@ pub fn balance_on_teeth(
     let mut evaluations = press_to_start(pairs, expected);
     let mut residual = f64::INFINITY;
     let mut before: Option<Bent> = None;
+    let indefinite_before = teeth.indefinite_steps();
     for iterations in 1..=NEWTON_LIMIT {
         let tolerance = if 2 * iterations > NEWTON_LIMIT { GREATEST_IMBALANCE } else { TOLERANCE };
         let load: f64 = pairs.iter().map(|pair| pair.response.line_load_n_per_mm).sum();
@@ -129,7 +130,11 @@ pub fn balance_on_teeth(
             evaluations += 1;
         });
     }
-    Err(EquilibriumError::NotConverged { position_mm, residual, evaluations })
+    // No convex function then has its minimum at the equilibrium.
+    match teeth.indefinite_steps() > indefinite_before {
+        true => Err(EquilibriumError::NegativeCompliance { position_mm }),
+        false => Err(EquilibriumError::NotConverged { position_mm, residual, evaluations }),
+    }
 }
 
 /// Presses every contact to the end of a step from `before` towards `after`, shortened where need be, and gives that end; the whole step
