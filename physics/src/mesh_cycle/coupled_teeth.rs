@@ -36,7 +36,7 @@ pub struct TeethTogether {
     kept: Option<FactoredStep>,
     /// Number of matrices factorised so far.
     factorisations: u64,
-    /// Number of those that were not positive definite.
+    /// Number of steps so far whose matrix was not positive definite.
     indefinite: u64,
 }
 
@@ -115,11 +115,10 @@ impl TeethTogether {
         // As long as no cell enters or leaves a contact, the tangents stay the same.
         let kept = self.kept.take().filter(|kept| kept.carrying == carrying && kept.root == root);
         let step = kept.unwrap_or_else(|| {
-            let step = FactoredStep::new(&self.influence, carrying, root);
             self.factorisations += 1;
-            self.indefinite += u64::from(matches!(step.factor, StepFactor::Indefinite(_)));
-            step
+            FactoredStep::new(&self.influence, carrying, root)
         });
+        self.indefinite += u64::from(matches!(step.factor, StepFactor::Indefinite(_)));
         let FactoredStep { carrying, root, factor, by_approach } = &*self.kept.insert(step);
         let given = tangents
             .iter()
